@@ -130,6 +130,18 @@ impl Canvas {
         }
     }
 
+    /// Begins anew, as if nothing had been drawn. `map_scale`: texels of a map for each pixel of a flat picture.
+    pub fn begin_anew(&mut self, map_scale: f64) {
+        match self {
+            Self::Picture(picture) => {
+                picture.set_map_scale(map_scale);
+                picture.begin_anew();
+            }
+            Self::Room(walls) => walls.begin_anew(),
+            Self::Preview(room) => room.walls.begin_anew(),
+        }
+    }
+
     /// Draws frames from the scene's start that nobody sees, so that the first frames of the ride wait for no pipeline,
     /// map or cut: its clock would run on meanwhile. Returns the time of the last of them, as it was drawn and shown.
     ///

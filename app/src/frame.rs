@@ -10,6 +10,7 @@
 use crate::canvas::{Canvas, Submitted, Watcher};
 use crate::error::Error;
 use crate::session::live::Live;
+use crate::session::outside_look::OutsideLook;
 use crate::session::tracker;
 use crate::stage_times::StageTimes;
 use glam::DVec3;
@@ -20,7 +21,6 @@ use render::{Gpu, SceneRenderer};
 use ride::RideFrame;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
-use view::{Gaze, OutsideView};
 use walls::{Drawing, Governor, PictureShares};
 
 /// Time that a frame may take at rest: less than the quarter of a second after which own time is not ridden.
@@ -38,10 +38,8 @@ pub struct RideInProgress {
     under_way: VecDeque<Submitted>,
     /// True if photo-surfaces are computed beside the drawing, so that frames may overlap.
     pub overlaps: bool,
-    /// Camera of the view from outside; `None` until it is first asked for.
-    pub outside: Option<OutsideView>,
-    /// Gaze that the view from outside shows while it is frozen.
-    frozen: Option<Gaze>,
+    /// View from outside.
+    pub outside: OutsideLook,
     /// Newest frame of the ride.
     pub frame: Option<RideFrame>,
     /// Vertices without a finite apparent position in the picture drawn last.
@@ -70,8 +68,7 @@ impl RideInProgress {
             renderer,
             under_way: VecDeque::new(),
             overlaps: false,
-            outside: None,
-            frozen: None,
+            outside: OutsideLook::default(),
             frame: None,
             not_finite: 0,
             behind: None,
@@ -82,6 +79,13 @@ impl RideInProgress {
             coarse_rest: false,
             share: 1.0,
         }
+    }
+
+    /// Draws by another renderer of the same scene from now on.
+    pub fn draw_by(&mut self, renderer: SceneRenderer) {
+        // What is under way was begun by the renderer before.
+        self.under_way.clear();
+        self.renderer = renderer;
     }
 
     /// Advances the ride to this moment and draws its light. Returns the rider's actions that concern the program,
@@ -101,9 +105,9 @@ impl RideInProgress {
         let Some(frame) = self.live.frame()? else { return Ok(None) };
         let light_speed = frame.vehicle.light_speed().speed_of_light_m_s();
         let head = frame.controls.head.as_ref().map(|state| tracker::head(&held(state, frame.paused), light_speed));
-        let outside = self.look_from_outside(&frame, shown);
+        let (gaze, outside) = self.outside.follow(&frame.gaze, shown);
         let watcher = Watcher {
-            gaze: self.frozen.unwrap_or(frame.gaze),
+            gaze,
             vehicle: *frame.vehicle.state(),
             thrust: *frame.vehicle.thrust(),
             head,
@@ -145,20 +149,6 @@ impl RideInProgress {
 }
 
 impl RideInProgress {
-    /// Camera of the view from outside, if that is shown. What is frozen stays the gaze of its first moment.
-    fn look_from_outside(&mut self, frame: &RideFrame, shown: &Presentation) -> Option<OutsideView> {
-        /// Distance at which the camera begins, metres.
-        const BEGIN_M: f64 = 30.0;
-        self.frozen = (shown.outside && shown.frozen).then(|| self.frozen.unwrap_or(frame.gaze));
-        let ahead = frame.gaze.observer_from_eye * DVec3::NEG_Z;
-        let camera = self.outside.get_or_insert_with(|| OutsideView::over(ahead, BEGIN_M));
-        camera.colouring = shown.colouring;
-        if !shown.outside {
-            self.outside = None;
-        }
-        self.outside
-    }
-
     /// Begins with a resolution by the time that a frame with every pixel took which nobody saw.
     pub fn begin(&mut self, canvas: &mut Canvas, took: Duration) {
         if let Some(governor) = &mut self.governor {

@@ -1,10 +1,9 @@
 //! Rapidity, the program, as a library: `main.rs` only calls it, and so do the tests.
 //!
 //! [`frame`] shows the path of one frame through the program on one page. Commands are in [`commands`], their options
-//! in [`command`]. The crates beside this folder hold everything else.
+//! in the crate [`command`]. The crates beside this folder hold everything else.
 
 mod canvas;
-pub mod command;
 pub mod commands;
 pub mod error;
 pub mod frame;

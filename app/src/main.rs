@@ -1,6 +1,6 @@
 //! The program: reads the command line, carries out the command, reports once.
 
-use rapidity::command::{self, Command};
+use command::{Command, Stop};
 use rapidity::commands::{check, devices, measure, probe, render, ride, town};
 use rapidity::error::Error;
 use rapidity::tell;
@@ -9,13 +9,28 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     outlive_full_files();
     quieten_mesa();
-    match command::parse().map(|command| run(&command)) {
+    match command::parse_from(std::env::args_os()).map(|command| run(&command)) {
         Ok(Ok(status)) => status,
         Ok(Err(error)) => {
             tell(format_args!("rapidity: {error}"));
             ExitCode::FAILURE
         }
-        Err(status) => status,
+        Err(stop) => report(&stop),
+    }
+}
+
+/// Prints why there is no command to run. Returns the exit status: 0 for help that was asked for, 2 for a mistake.
+fn report(stop: &Stop) -> ExitCode {
+    const USAGE: u8 = 2;
+    match stop {
+        Stop::Help(text) => match text.print() {
+            Ok(()) if !text.use_stderr() => ExitCode::SUCCESS,
+            _ => ExitCode::from(USAGE),
+        },
+        Stop::Usage(sentence) => {
+            tell(format_args!("rapidity: {sentence}"));
+            ExitCode::from(USAGE)
+        }
     }
 }
 

@@ -42,6 +42,8 @@ pub enum Setting {
     Language,
     /// Value that the colours of the view from outside show.
     Colouring,
+    /// One of three views: seen, measured, instant. The switches of the light stay as they are.
+    View,
 }
 
 /// Part of the picture or of the interface that is on or off.
@@ -68,6 +70,10 @@ pub enum Switch {
     Diagram,
     /// Diagram in the vehicle's frame instead of the world's.
     DiagramOfVehicle,
+    /// Readings of the scene's clocks.
+    Clocks,
+    /// Planner, which says when to turn round.
+    Planner,
 }
 
 /// Direction in which the focus of a menu moves.
@@ -92,6 +98,8 @@ pub enum FocusStep {
 pub enum Action {
     /// Stops the clock, or lets it run. The head still looks and walks meanwhile.
     TogglePause,
+    /// Stops the clock if true, lets it run if false.
+    Hold(bool),
     /// Advances by one step while paused.
     Step,
     /// Proper time per real time; finite, not negative.
@@ -116,12 +124,16 @@ pub enum Action {
     Jump(Place),
     /// Scene to ride in, by its name or file. The ride ends, and another begins there.
     Scene(String),
+    /// Tour to go on, by its name or file. The ride ends, and the tour begins.
+    Tour(String),
     /// Value of a setting, as on the command line.
     Set(Setting, String),
     /// The next value of a setting that has a few.
     Next(Setting),
     /// A switch, turned.
     Toggle(Switch),
+    /// A switch, turned on or off.
+    Turn(Switch, bool),
     /// The next of three views: seen, measured, instant.
     NextView,
     /// Stops by which the picture becomes brighter; finite.
@@ -136,8 +148,17 @@ pub enum Action {
     ToggleHelp,
     /// Focus of the menu, moved by one control.
     Focus(FocusStep),
-    /// Goes on with a tour or stops it, or chooses what the pointer shows.
+    /// Chooses what the pointer shows, or where nothing is to be chosen, goes on with a tour or stops it.
     Choose,
+    /// Goes on with a tour, or stops it.
+    GoOn,
+    /// Camera of the view from outside, led about the eye.
+    Orbit {
+        /// Turns to the right and up, radians.
+        turn_rad: [f64; 2],
+        /// Factor by which it comes closer.
+        closer: f64,
+    },
     /// Answer to a tour's question, by its number from 0.
     Answer(u8),
     /// Fills the monitors, or leaves them.
@@ -189,8 +210,11 @@ impl Action {
             Self::TimeScale(scale) => scale.is_finite() && *scale >= 0.0,
             Self::ScaleTime(factor) | Self::SpeedOfLight(factor) => factor.is_finite() && *factor > 0.0,
             Self::Expose(stops) => stops.is_finite(),
+            Self::Orbit { turn_rad, closer } => {
+                turn_rad.iter().all(|turn| turn.is_finite()) && closer.is_finite() && *closer > 0.0
+            }
             Self::Jump(place) => place.is_sound(),
-            Self::Scene(text) | Self::Set(_, text) => text.len() <= LONGEST_TEXT,
+            Self::Scene(text) | Self::Tour(text) | Self::Set(_, text) => text.len() <= LONGEST_TEXT,
             _ => true,
         }
     }

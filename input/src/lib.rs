@@ -74,4 +74,4 @@ pub use look::{FreeLook, LookDecoder, STEEPEST_LOOK_RAD};
 pub use rider_config::RiderConfig;
 pub use sample::{Sample, SampleSource, Signal};
 pub use trainer::{RoadLoad, TrainerConfig, TrainerUrl};
-pub use wand::{HeldButtons, WandConfig, WandState};
+pub use wand::{HeldButtons, WandButtons, WandConfig, WandState};

@@ -56,6 +56,7 @@ mod tests {
             Action::Tracking(TrackingMode::Position),
             Action::Jump(Place { position_m: [1.0, 0.0, -3.5], look: [0.0, 0.0, -1.0] }),
             Action::Scene("models/hall.glb".to_owned()),
+            Action::Tour("twins".to_owned()),
             Action::Set(Setting::Effects, "geometry,doppler".to_owned()),
             Action::Next(Setting::Tone),
             Action::Toggle(Switch::Outside),

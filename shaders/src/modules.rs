@@ -25,6 +25,7 @@ const ABERRATION: &str = include_str!("../wgsl/aberration.wgsl");
 const ENCODE: &str = include_str!("../wgsl/encode.wgsl");
 const FULLSCREEN: &str = include_str!("../wgsl/fullscreen.wgsl");
 const RADIANCE: &str = include_str!("../wgsl/radiance.wgsl");
+const TABLE: &str = include_str!("../wgsl/table.wgsl");
 const SHARED: &str = include_str!("../wgsl/shared.wgsl");
 
 const PHOTO_SURFACE: &str = include_str!("../wgsl/photo_surface.wgsl");
@@ -73,6 +74,7 @@ pub const DISPLAY: Module = Module {
         include_str!("../wgsl/tone.wgsl"),
         include_str!("../wgsl/gamut.wgsl"),
         ENCODE,
+        TABLE,
         include_str!("../wgsl/display.wgsl"),
     ],
 };
@@ -85,7 +87,8 @@ pub const ROOM: Module = Module { name: "room", files: &[include_str!("../wgsl/r
 pub const ENCODED: Module =
     Module { name: "encoded", files: &[FULLSCREEN, ENCODE, include_str!("../wgsl/encoded.wgsl")] };
 /// Module that draws a sheet in a room over a channel's picture.
-pub const SHEET: Module = Module { name: "sheet", files: &[FULLSCREEN, ENCODE, include_str!("../wgsl/sheet.wgsl")] };
+pub const SHEET: Module =
+    Module { name: "sheet", files: &[FULLSCREEN, ENCODE, TABLE, include_str!("../wgsl/sheet.wgsl")] };
 /// Module that resamples flat pictures for a surface that is not flat.
 pub const RESAMPLE: Module = Module { name: "resample", files: &[FULLSCREEN, include_str!("../wgsl/resample.wgsl")] };
 /// Module that enlarges a finished picture to the size of its window.

@@ -14,18 +14,6 @@ override SIGNAL_POWER: f32 = 0.0;
 @group(0) @binding(3) var<uniform> placement: PlacementUniforms;
 @group(0) @binding(4) var gains: texture_2d<f32>;
 
-// Gain at a pixel, mixed from a table: gains vary so little that the table is coarser than the picture.
-fn gain_at(place: vec2<f32>) -> vec4<f32> {
-    let size = vec2<f32>(textureDimensions(gains));
-    let scaled = clamp(place * size / vec2<f32>(textureDimensions(radiance)) - 0.5, vec2(0.0), size - 1.0);
-    let first = vec2<i32>(scaled);
-    let last = min(first + 1, vec2<i32>(size) - 1);
-    let share = fract(scaled);
-    let above = mix(textureLoad(gains, first, 0), textureLoad(gains, vec2(last.x, first.y), 0), share.x);
-    let below = mix(textureLoad(gains, vec2(first.x, last.y), 0), textureLoad(gains, last, 0), share.x);
-    return mix(above, below, share.y);
-}
-
 @fragment
 fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     let texel = vec2<i32>(at.xy - placement.origin);
@@ -33,7 +21,7 @@ fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     let exposed = clamp(seen * adaptation.exposure * placement.exposure, vec3(-BRIGHTEST), vec3(BRIGHTEST));
     var linear = in_gamut(toned(exposed));
     if (GAINS) {
-        let gain = gain_at(at.xy - placement.origin);
+        let gain = mixed_at(gains, (at.xy - placement.origin) / vec2<f32>(textureDimensions(radiance)));
         linear = clamp(linear * gain.r + gain.g, vec3(0.0), vec3(1.0));
     }
     if (ENCODE && SIGNAL_POWER > 0.0) {

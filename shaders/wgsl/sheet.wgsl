@@ -32,18 +32,6 @@ fn linear_of(encoded: vec3<f32>) -> vec3<f32> {
     return select(curve, encoded / 12.92, encoded <= vec3(0.04045));
 }
 
-// Value of a table that is coarser than the picture.
-fn mixed_at(table: texture_2d<f32>, share: vec2<f32>) -> vec4<f32> {
-    let size = vec2<f32>(textureDimensions(table));
-    let scaled = clamp(share * size - 0.5, vec2(0.0), size - 1.0);
-    let first = vec2<i32>(scaled);
-    let last = min(first + 1, vec2<i32>(size) - 1);
-    let between = fract(scaled);
-    let above = mix(textureLoad(table, first, 0), textureLoad(table, vec2(last.x, first.y), 0), between.x);
-    let below = mix(textureLoad(table, vec2(first.x, last.y), 0), textureLoad(table, last, 0), between.x);
-    return mix(above, below, between.y);
-}
-
 @fragment
 fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     // Find the pixel's point on the screen.

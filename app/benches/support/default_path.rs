@@ -3,7 +3,7 @@
 use super::table_scenes::{SIZES, scene_of};
 use built_in::lattice::Lattice;
 use built_in::town;
-use rapidity::command::{Command, parse_from};
+use command::{Command, parse_from};
 use regular_file::Budget;
 use render::Gpu;
 use render::choice::Choice;

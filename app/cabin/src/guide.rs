@@ -1,14 +1,15 @@
 //! What explains a ride: map, space-time diagram, clocks, places to go to.
 
 use egui::{Area, Color32, ColorImage, Id, Pos2, Rect, Sense, TextureHandle, TextureOptions, Ui, Vec2};
+use glam::DVec3;
 use input::Place;
 use instruments::{DiagramFrame, DiagramView, InstrumentWords, MiniatureView, PlanPicture, PlanTexture, Trail};
-use instruments::{WatchedClock, diagram, miniature};
+use instruments::{PlannedJourney, WatchedClock, diagram, miniature, planner};
 use interface::ClockRow;
 use presentation::Presentation;
 use ride::RideFrame;
 use scene::{LocalName, NamedPlace, Scene, SceneClock};
-use words::Language;
+use words::{Language, Phrase};
 
 /// Largest side of the map's picture, pixels.
 const PLAN_SIDE: u32 = 768;
@@ -21,14 +22,28 @@ const ABOVE: f32 = 104.0;
 /// Most clocks in the table.
 const MOST_CLOCKS: usize = 3;
 
+/// Size of the planner, points, and the height of the table of clocks on a sheet.
+const PLANNER: Vec2 = Vec2::new(270.0, 150.0);
+const CLOCKS_HEIGHT: f32 = 106.0;
+
+/// Journey that the planner plans.
+#[derive(Clone, Copy, Debug)]
+struct Journey {
+    /// Number of the destination among the scene's places; `None` for the start.
+    place: Option<usize>,
+    planned: PlannedJourney,
+}
+
 /// Knowledge of the scene and of the way so far.
 pub struct Guide {
     places: Vec<NamedPlace>,
+    start: DVec3,
     clocks: Vec<SceneClock>,
     plan: Option<PlanPicture>,
     trail: Trail,
     diagram: DiagramView,
     miniature: MiniatureView,
+    journey: Option<Journey>,
 }
 
 impl Guide {
@@ -45,12 +60,15 @@ impl Guide {
             trail,
             diagram: DiagramView::default(),
             miniature: MiniatureView::default(),
+            start: scene.start.position,
+            journey: None,
         }
     }
 
     /// Notes a frame of the ride. `aspect`: width of the picture over its height.
     pub fn note(&mut self, frame: &RideFrame, presentation: &Presentation, aspect: f64) {
         self.trail.note(frame);
+        self.journey = self.journey_ahead(frame);
         self.diagram.frame = if presentation.diagram_of_vehicle { DiagramFrame::Vehicle } else { DiagramFrame::World };
         self.diagram.follow(&self.trail);
         let half = 0.5 * presentation.fov_deg.to_radians();
@@ -68,8 +86,14 @@ impl Guide {
         self.places.iter().map(|named| (name(&named.name, language).to_owned(), place(named))).collect()
     }
 
+    /// Readings of the clocks that are nearest to the rider, if a presentation shows them.
+    pub fn wanted_clocks(&self, frame: &RideFrame, presentation: &Presentation) -> Vec<ClockRow> {
+        let wanted = presentation.miniature || presentation.clocks;
+        if wanted { self.clocks(frame, presentation.language) } else { Vec::new() }
+    }
+
     /// Readings of the clocks that are nearest to the rider.
-    pub fn clocks(&self, frame: &RideFrame, language: Language) -> Vec<ClockRow> {
+    fn clocks(&self, frame: &RideFrame, language: Language) -> Vec<ClockRow> {
         let observer = &frame.gaze.observer;
         let light_m_s = frame.vehicle.light_speed().speed_of_light_m_s();
         let away = |clock: &SceneClock| match &clock.motion {
@@ -92,16 +116,25 @@ impl Guide {
         let room = screen.height() - ABOVE - MARGIN - 40.0;
         let bottom = screen.bottom() - ABOVE;
         let fit = |size: Vec2| size * (room / size.y).min(1.0);
+        // Map, clocks and planner stand one above the other at the left.
+        let mut above_left = bottom;
         if presentation.miniature {
             let size = fit(MAP);
             let at = Pos2::new(screen.left() + MARGIN, bottom - size.y);
             panel(ui, "map", at, size, |ui, area| self.map(ui, area, presentation.language));
-            if !clocks.is_empty() {
-                let area = Area::new(Id::unique("clocks")).interactable(false);
-                area.fixed_pos(Pos2::new(screen.left() + MARGIN, at.y - 8.0))
-                    .pivot(egui::Align2::LEFT_BOTTOM)
-                    .show(ui.ctx(), |ui| interface::show_clocks(ui, presentation.language, clocks));
-            }
+            above_left = at.y - 8.0;
+        }
+        if !clocks.is_empty() {
+            let area = Area::new(Id::unique("clocks")).interactable(false);
+            let table = area
+                .fixed_pos(Pos2::new(screen.left() + MARGIN, above_left))
+                .pivot(egui::Align2::LEFT_BOTTOM)
+                .show(ui.ctx(), |ui| interface::show_clocks(ui, presentation.language, clocks));
+            above_left = table.response.rect.top() - 8.0;
+        }
+        if presentation.planner {
+            let at = Pos2::new(screen.left() + MARGIN, above_left - PLANNER.y);
+            panel(ui, "planner", at, PLANNER, |ui, area| self.planner(ui, area, presentation.language));
         }
         if presentation.diagram {
             let size = fit(DIAGRAM);
@@ -119,14 +152,19 @@ impl Guide {
         let whole = ui.max_rect();
         let language = presentation.language;
         let half = Vec2::new(0.5 * whole.width() - 4.0, whole.height());
-        let left = Rect::from_min_size(whole.min, half);
+        let mut left = Rect::from_min_size(whole.min, half);
+        if !clocks.is_empty() {
+            let table = left.with_min_y(left.bottom() - CLOCKS_HEIGHT);
+            interface::show_clocks(&mut ui.new_child(egui::UiBuilder::new().max_rect(table)), language, clocks);
+            left.set_bottom(table.top() - 4.0);
+        }
+        if presentation.planner {
+            let plan = left.with_min_y(left.bottom() - PLANNER.y);
+            self.planner(ui, plan, language);
+            left.set_bottom(plan.top() - 4.0);
+        }
         if presentation.miniature {
-            let map = if clocks.is_empty() { left } else { left.with_max_y(left.bottom() - 110.0) };
-            self.map(ui, map, language);
-            if !clocks.is_empty() {
-                let mut below = ui.new_child(egui::UiBuilder::new().max_rect(left.with_min_y(map.bottom() + 4.0)));
-                interface::show_clocks(&mut below, language, clocks);
-            }
+            self.map(ui, left, language);
         }
         if presentation.diagram {
             self.diagram(
@@ -140,6 +178,48 @@ impl Guide {
     fn map(&self, ui: &Ui, area: Rect, language: Language) {
         let plan = self.plan.as_ref().map(|plan| PlanTexture { id: texture(ui, plan).id(), area: plan.area });
         miniature(ui.painter(), area, &self.trail, &self.miniature, plan, instrument_words(language));
+    }
+
+    fn planner(&self, ui: &Ui, area: Rect, language: Language) {
+        let Some(now) = self.trail.present() else { return };
+        let (aim, journey) = match &self.journey {
+            Some(journey) => (self.destination(journey, language), Some(&journey.planned)),
+            None => ("", None),
+        };
+        planner(ui.painter(), area, now, (aim, journey), instrument_words(language));
+    }
+
+    fn destination(&self, journey: &Journey, language: Language) -> &str {
+        match journey.place.and_then(|number| self.places.get(number)) {
+            Some(place) => name(&place.name, language),
+            None => language.text(Phrase::Start),
+        }
+    }
+
+    /// Journey to the place that the nose points at best, at full thrust; `None` if it points at none.
+    fn journey_ahead(&self, frame: &RideFrame) -> Option<Journey> {
+        /// Cosine of the largest angle between the nose and the place: 20°.
+        const AHEAD: f64 = 0.94;
+        /// Smallest distance of a destination, metres.
+        const NEAREST_M: f64 = 2.0;
+        let state = frame.vehicle.state();
+        let nose = state.orientation * DVec3::NEG_Z;
+        let places = self.places.iter().enumerate().map(|(number, place)| (Some(number), place.start.position));
+        let way = |(place, position): (Option<usize>, DVec3)| {
+            let way = position - state.position;
+            let cosine = way.normalize_or_zero().dot(nose).abs();
+            (way.length() >= NEAREST_M).then_some((cosine, place, way.dot(nose)))
+        };
+        let all = places.chain([(None, self.start)]).filter_map(way);
+        let (cosine, place, distance_m) = all.max_by(|one, other| one.0.total_cmp(&other.0))?;
+        let light_speed = frame.vehicle.light_speed();
+        let planned = PlannedJourney {
+            distance_m,
+            celerity: state.celerity.vector().dot(nose),
+            acceleration_m_s2: frame.vehicle.settings().flight.thrust_per_s * light_speed.speed_of_light_m_s(),
+            light_speed,
+        };
+        (cosine >= AHEAD).then_some(Journey { place, planned })
     }
 
     fn diagram(&self, ui: &Ui, area: Rect, language: Language) {

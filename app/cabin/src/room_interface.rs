@@ -4,7 +4,7 @@
 use crate::guide::Guide;
 use glam::{DQuat, DVec2, DVec3};
 use input::head::Tracking;
-use input::{Action, WandState};
+use input::{Action, WandButtons, WandState};
 use interface::{Caption, ClockRow, DrawnSheet, MenuPage, MenuRide, Readings, SheetPointer};
 use presentation::Presentation;
 use render::Gpu;
@@ -64,6 +64,8 @@ pub struct RoomInterface {
     help: PlacedSheet,
     guide: PlacedSheet,
     caption: PlacedSheet,
+    /// True if the pointer is on a sheet.
+    pointed_at: bool,
     beam: wgpu::TextureView,
 }
 
@@ -89,11 +91,6 @@ impl PlacedSheet {
         meet(corner, right, up, ray.from_m, ray.direction)
     }
 
-    fn pointer(&self, head_m: DVec3, ray: Option<&PointerRay>) -> SheetPointer {
-        let place = ray.and_then(|ray| self.met(head_m, ray)).map(|hit| hit.place.to_array());
-        SheetPointer { place, pressed: ray.is_some_and(|ray| ray.pressed) }
-    }
-
     fn sheet(&self, head_m: DVec3) -> RoomSheet {
         let [corner_m, right_m, up_m] = self.edges(head_m);
         RoomSheet { corner_m, right_m, up_m, picture: self.drawn.picture().clone() }
@@ -106,11 +103,12 @@ impl RoomInterface {
         let amber = [255, 179, 71, 255];
         Self {
             head_m: display.viewer.head_m,
-            readings: PlacedSheet::new(gpu, [700.0, 210.0], [0.0, -25.0], [2.0, 3.0]),
-            menu: PlacedSheet::new(gpu, [560.0, 280.0], [0.0, 7.0], [1.5, 1.5]),
-            help: PlacedSheet::new(gpu, [560.0, 560.0], [-52.0, 0.0], [1.5, 1.5]),
+            readings: PlacedSheet::new(gpu, [700.0, 210.0], [0.0, -31.0], [2.0, 2.4]),
+            menu: PlacedSheet::new(gpu, [560.0, 300.0], [0.0, 18.0], [1.5, 1.5]),
+            help: PlacedSheet::new(gpu, [560.0, 740.0], [-52.0, 0.0], [1.6, 1.35]),
             guide: PlacedSheet::new(gpu, [720.0, 460.0], [56.0, 0.0], [1.6, 2.0]),
-            caption: PlacedSheet::new(gpu, [560.0, 220.0], [0.0, -10.0], [1.6, 1.5]),
+            caption: PlacedSheet::new(gpu, [560.0, 220.0], [0.0, -9.0], [1.6, 1.5]),
+            pointed_at: false,
             beam: render::view_from_rows(gpu, "beam", [1, 1, 1], wgpu::TextureFormat::Rgba8Unorm, &amber),
         }
     }
@@ -135,38 +133,50 @@ impl RoomInterface {
         if presentation.help {
             let language = presentation.language;
             self.help.drawn.draw(gpu, now_s, (SheetPointer::default(), &[]), |ui| {
-                interface::show_help(ui, language, readings.kiosk);
+                interface::help_sheet(ui, language, readings.kiosk);
             });
             sheets.push(self.help.sheet(self.head_m));
         }
-        if presentation.miniature || presentation.diagram {
+        if presentation.miniature || presentation.diagram || presentation.clocks || presentation.planner {
             self.guide.drawn.draw(gpu, now_s, (SheetPointer::default(), &[]), |ui| {
                 guide.show_on_sheet(ui, presentation, clocks);
             });
             sheets.push(self.guide.sheet(self.head_m));
         }
+        // The pointer is on the nearest of the sheets that it meets.
+        let met =
+            |sheet: &PlacedSheet, is_shown: bool| ray.filter(|_| is_shown).and_then(|ray| sheet.met(self.head_m, &ray));
+        let hits = [met(&self.caption, caption.is_some()), met(&self.menu, menu.is_some())];
+        let way = |hit: &Option<SheetHit>| hit.map_or(f64::INFINITY, |hit| hit.way);
+        let nearest = way(&hits[0]).min(way(&hits[1]));
+        let [on_caption, on_menu] = hits.map(|hit| hit.filter(|hit| hit.way == nearest));
+        let pointer = |hit: Option<SheetHit>| SheetPointer {
+            place: hit.map(|hit| hit.place.to_array()),
+            pressed: ray.is_some_and(|ray| ray.pressed),
+        };
         if let Some(caption) = caption {
-            let pointer = self.caption.pointer(self.head_m, ray.as_ref());
-            self.caption.drawn.draw(gpu, now_s, (pointer, &[]), |ui| {
+            self.caption.drawn.draw(gpu, now_s, (pointer(on_caption), &[]), |ui| {
                 actions.extend(interface::caption_sheet(ui, presentation.language, caption));
             });
             sheets.push(self.caption.sheet(self.head_m));
         }
-        let Some(menu) = menu else {
-            sheets.extend(ray.filter(|ray| ray.has_beam && caption.is_some()).map(|ray| self.beam(&ray, None)));
-            return (sheets, actions);
-        };
-        let hit = ray.and_then(|ray| self.menu.met(self.head_m, &ray));
-        let pointer =
-            SheetPointer { place: hit.map(|hit| hit.place.to_array()), pressed: ray.is_some_and(|ray| ray.pressed) };
-        self.menu.drawn.draw(gpu, now_s, (pointer, keys), |ui| {
-            actions.extend(interface::menu_sheet(ui, page, presentation, menu));
-        });
-        sheets.push(self.menu.sheet(self.head_m));
-        if let Some(ray) = ray.filter(|ray| ray.has_beam) {
+        if let Some(menu) = menu {
+            self.menu.drawn.draw(gpu, now_s, (pointer(on_menu), keys), |ui| {
+                actions.extend(interface::menu_sheet(ui, page, presentation, menu));
+            });
+            sheets.push(self.menu.sheet(self.head_m));
+        }
+        let hit = on_caption.or(on_menu);
+        self.pointed_at = hit.is_some();
+        if let Some(ray) = ray.filter(|ray| ray.has_beam && (caption.is_some() || menu.is_some())) {
             sheets.push(self.beam(&ray, hit));
         }
         (sheets, actions)
+    }
+
+    /// True if the pointer was on a sheet in the picture drawn last.
+    pub fn is_pointed_at(&self) -> bool {
+        self.pointed_at
     }
 
     /// Beam of a pointer, up to what it meets: a ribbon that faces the head.
@@ -184,15 +194,15 @@ impl RoomInterface {
     }
 }
 
-/// Ray of a wand whose place is known.
-pub fn of_wand(wand: &WandState) -> Option<PointerRay> {
+/// Ray of a wand whose place is known. `buttons`: actions of its buttons, of which those that choose press.
+pub fn of_wand(wand: &WandState, buttons: &WandButtons) -> Option<PointerRay> {
     /// Pull of the trigger from which it counts as held.
     const PULLED: f64 = 0.5;
     let seen = matches!(wand.tracked, Tracking::Tracked | Tracking::Fading);
     seen.then(|| PointerRay {
         from_m: wand.position_m,
         direction: wand.orientation * DVec3::NEG_Z,
-        pressed: wand.buttons.holds(0) || wand.trigger > PULLED,
+        pressed: wand.buttons.numbers().any(|button| buttons.chooses(button)) || wand.trigger > PULLED,
         has_beam: true,
     })
 }
@@ -258,8 +268,14 @@ mod tests {
             stick: [0.0; 2],
             trigger: 0.0,
         };
-        let ray = of_wand(&wand).unwrap();
+        let usual = WandButtons::default();
+        let ray = of_wand(&wand, &usual).unwrap();
         assert!((ray.direction - DVec3::NEG_X).length() < 1e-12 && ray.pressed);
-        assert_eq!(of_wand(&WandState { tracked: Tracking::Lost, ..wand }), None);
+        assert_eq!(of_wand(&WandState { tracked: Tracking::Lost, ..wand }, &usual), None);
+        // Whichever button chooses presses, and no other.
+        let own = [("0".to_owned(), "photo".to_owned()), ("3".to_owned(), "choose".to_owned())];
+        let own = WandButtons(own.into());
+        assert!(!of_wand(&wand, &own).unwrap().pressed);
+        assert!(of_wand(&WandState { buttons: HeldButtons(8), ..wand }, &own).unwrap().pressed);
     }
 }

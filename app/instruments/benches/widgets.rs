@@ -67,7 +67,8 @@ fn main() {
         let of_diagram = drawn(&context, |painter| diagram(painter, area(10.0, 480.0), &trail, &diagram_view, words));
         let of_map =
             drawn(&context, |painter| miniature(painter, area(440.0, 520.0), &trail, &map_view, Some(plan), words));
-        let of_planner = drawn(&context, |painter| planner(painter, area(10.0, 200.0), moment, Some(&journey), words));
+        let of_planner =
+            drawn(&context, |painter| planner(painter, area(10.0, 200.0), moment, ("gate", Some(&journey)), words));
         let empty = drawn(&context, |_| ());
         if number >= BEFORE {
             let of = [followed.as_secs_f64() * 1e6, of_diagram, of_map, of_planner, empty];

@@ -13,15 +13,16 @@ const NOW_S: f64 = 0.5;
 /// Standard acceleration of free fall, m/s².
 const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
 
-/// Draws the planner into `area`: what the rider feels at present, and the plan of a journey, if there is one.
+/// Draws the planner into `area`: what the rider feels at present, and the plan of a journey to a place of this name,
+/// if there is one.
 pub fn planner(
     painter: &Painter,
     area: Rect,
     now: &PresentMoment,
-    journey: Option<&PlannedJourney>,
+    (aim, journey): (&str, Option<&PlannedJourney>),
     words: &InstrumentWords,
 ) {
-    let inner = pen::frame(painter, area, words.planner, "");
+    let inner = pen::frame(painter, area, words.planner, aim);
     let label = painter.text(inner.min, Align2::LEFT_TOP, words.felt, FontId::proportional(TEXT), FAINT);
     let felt = gravities(felt_g(&now.thrust, now.light_speed), words);
     let felt = painter.text(label.left_bottom(), Align2::LEFT_TOP, felt, FontId::proportional(22.0), INK);

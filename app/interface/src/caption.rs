@@ -46,9 +46,11 @@ const WRONG: Color32 = Color32::from_rgb(0xff, 0xb3, 0x47);
 /// Widest caption, points, and its distance from the lower edge, above the readings.
 const WIDTH: f32 = 620.0;
 const ABOVE: f32 = 108.0;
+/// Distance from the lower edge of a film, points.
+const IN_FILM: f32 = 24.0;
 
-/// Shows a caption. What is asked for is returned as actions.
-pub fn show(ui: &mut Ui, language: Language, caption: &Caption) -> Vec<Action> {
+/// Shows a caption's texts and answers. What is asked for is returned as actions.
+fn texts(ui: &mut Ui, language: Language, caption: &Caption) -> Vec<Action> {
     let mut actions = Vec::new();
     ui.label(RichText::new(&caption.title).small().weak());
     if !caption.text.is_empty() {
@@ -67,27 +69,45 @@ pub fn show(ui: &mut Ui, language: Language, caption: &Caption) -> Vec<Action> {
             ui.label(RichText::new(format!("{} {why}", language.text(verdict))).color(colour));
         }
     }
+    actions
+}
+
+/// Shows a caption with its buttons. What is asked for is returned as actions.
+pub fn show(ui: &mut Ui, language: Language, caption: &Caption) -> Vec<Action> {
+    let mut actions = texts(ui, language, caption);
     let can_go_on = caption.waits && caption.question.as_ref().is_none_or(|question| question.chosen.is_some());
     if can_go_on && Controls::new(ui, language).button(Phrase::GoOn, Phrase::GoOnPurpose) {
-        actions.push(Action::Choose);
+        actions.push(Action::GoOn);
     }
     if !caption.waits && Controls::new(ui, language).button(Phrase::LookAround, Phrase::LookAroundPurpose) {
-        actions.push(Action::Choose);
+        actions.push(Action::GoOn);
     }
     actions
+}
+
+/// Shows a caption above the lower edge of a picture, by so many points.
+fn over(ui: &Ui, above: f32, contents: impl FnOnce(&mut Ui)) {
+    let width = (ui.ctx().content_rect().width() - 60.0).min(WIDTH);
+    Area::new(Id::unique("caption")).anchor(Align2::CENTER_BOTTOM, [0.0, -above]).show(ui.ctx(), |ui| {
+        Frame::window(ui.style()).show(ui, |ui| {
+            ui.set_max_width(width);
+            contents(ui);
+        });
+    });
 }
 
 /// Shows a caption above the readings of a window.
 pub fn window(ui: &Ui, language: Language, caption: &Caption) -> Vec<Action> {
     let mut actions = Vec::new();
-    let width = (ui.ctx().content_rect().width() - 60.0).min(WIDTH);
-    Area::new(Id::unique("caption")).anchor(Align2::CENTER_BOTTOM, [0.0, -ABOVE]).show(ui.ctx(), |ui| {
-        Frame::window(ui.style()).show(ui, |ui| {
-            ui.set_max_width(width);
-            actions = show(ui, language, caption);
-        });
-    });
+    over(ui, ABOVE, |ui| actions = show(ui, language, caption));
     actions
+}
+
+/// Shows a caption in a film, where nobody presses buttons.
+pub fn film(ui: &Ui, language: Language, caption: &Caption) {
+    over(ui, IN_FILM, |ui| {
+        texts(ui, language, caption);
+    });
 }
 
 /// Shows a caption on a sheet of its own.

@@ -7,7 +7,7 @@ use render::target::texture;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Format of a sheet's picture: sRGB, times its opacity.
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// Pointer on a sheet.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,6 +27,8 @@ pub struct DrawnSheet {
     size: Vec2,
     pixels_per_point: f32,
     before: SheetPointer,
+    /// Last place of the pointer on the sheet.
+    last_place: [f64; 2],
     /// Hash of what is drawn at present.
     drawn: Option<u64>,
 }
@@ -36,8 +38,10 @@ impl DrawnSheet {
     pub fn new(gpu: &Gpu, size: [f32; 2], pixels_per_point: f32) -> Self {
         let context = egui::Context::default();
         context.set_theme(egui::Theme::Dark);
-        let pixels = size.map(|points| (points * pixels_per_point) as u32);
-        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        let pixels = size.map(|points| (points * pixels_per_point).round() as u32);
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::COPY_SRC;
         Self {
             context,
             renderer: Renderer::new(&gpu.device, FORMAT, RendererOptions::default()),
@@ -45,6 +49,7 @@ impl DrawnSheet {
             size: size.into(),
             pixels_per_point,
             before: SheetPointer::default(),
+            last_place: [0.0; 2],
             drawn: None,
         }
     }
@@ -127,12 +132,12 @@ impl DrawnSheet {
             (None, Some(_)) => events.push(Event::PointerGone),
             (None, None) => {}
         }
-        if pointer.pressed != before.pressed
-            && let Some(place) = pointer.place.or(before.place)
-        {
-            let pressed = pointer.pressed;
-            let modifiers = Modifiers::default();
-            events.push(Event::PointerButton { pos: at(place), button: PointerButton::Primary, pressed, modifiers });
+        self.last_place = pointer.place.unwrap_or(self.last_place);
+        // What is released beside the sheet is released on it, too.
+        if pointer.pressed != before.pressed && (pointer.place.is_some() || !pointer.pressed) {
+            let (pos, pressed) = (at(self.last_place), pointer.pressed);
+            let (button, modifiers) = (PointerButton::Primary, Modifiers::default());
+            events.push(Event::PointerButton { pos, button, pressed, modifiers });
         }
         events
     }

@@ -1,6 +1,7 @@
 //! Help: how to go, how to stop and how to get help, then every key.
 
-use egui::{Align2, Grid, RichText, ScrollArea, Ui, Window};
+use egui::epaint::Shadow;
+use egui::{Align2, Frame, Grid, RichText, ScrollArea, Ui, Vec2, Window};
 use words::{Language, Phrase};
 
 /// What a first-time rider must know.
@@ -14,8 +15,11 @@ const SURROUNDINGS: f32 = 210.0;
 const WIDE: f32 = 1150.0;
 const COLUMN: f32 = 540.0;
 
+/// Margins of a sheet's frame, left and right or above and below, points.
+const SHEET_MARGIN: f32 = 14.0;
+
 /// Keys and their meanings; the same list as in the README.
-const KEYS: [(&str, Phrase); 31] = [
+const KEYS: [(&str, Phrase); 32] = [
     ("W S  ↑ ↓", Phrase::KeyPedal),
     ("A D  ← →", Phrase::KeySteer),
     ("R F", Phrase::KeyLift),
@@ -42,6 +46,7 @@ const KEYS: [(&str, Phrase); 31] = [
     ("F1 H", Phrase::KeyHelp),
     ("F2", Phrase::KeyReadings),
     ("F3", Phrase::KeyMenu),
+    ("Enter", Phrase::KeyChoose),
     ("F4", Phrase::KeyCalibrate),
     ("U", Phrase::KeyStraight),
     ("F7", Phrase::KeyHead),
@@ -51,6 +56,63 @@ const KEYS: [(&str, Phrase); 31] = [
 
 /// Keys that do nothing in a kiosk.
 const NOT_IN_KIOSK: [&str; 6] = ["C  F8", "V", "F3", "F4", "F11", "Esc"];
+
+/// Rows of keys and their meanings.
+fn rows(kiosk: bool) -> Vec<(&'static str, Phrase)> {
+    KEYS.into_iter().filter(|(keys, _)| !kiosk || !NOT_IN_KIOSK.contains(keys)).collect()
+}
+
+/// Labels of keys as they stand on the keyboards of a language. Keys are known by their place.
+fn labels(keys: &'static str, language: Language) -> &'static str {
+    match (language, keys) {
+        (Language::German, "Y  F5  F9") => "Z  F5  F9",
+        (Language::German, "Z  F6") => "Y  F6",
+        (Language::German, "− =") => "ß ´",
+        (Language::German, "[ ]") => "Ü +",
+        (Language::German, "Space") => "Leertaste",
+        (Language::German, "Backspace") => "Rücktaste",
+        (Language::German, "Shift") => "Umschalt",
+        (Language::German, "Enter") => "Eingabe",
+        (_, keys) => keys,
+    }
+}
+
+/// What must be known first.
+fn first(ui: &mut Ui, language: Language) {
+    let bright = ui.visuals().strong_text_color();
+    Grid::new("first").num_columns(2).spacing([24.0, 7.0]).show(ui, |ui| {
+        for (what, how) in FIRST {
+            ui.label(RichText::new(language.text(what)).size(17.0).strong());
+            ui.label(RichText::new(language.text(how)).size(17.0).color(bright));
+            ui.end_row();
+        }
+    });
+    ui.separator();
+}
+
+/// Grid of keys in so many columns.
+fn keys(ui: &mut Ui, language: Language, rows: &[(&'static str, Phrase)], columns: usize) {
+    Grid::new("keys").num_columns(2 * columns).spacing([20.0, 5.0]).show(ui, |ui| {
+        let high = rows.len().div_ceil(columns);
+        for number in 0..high {
+            for (keys, meaning) in rows.iter().skip(number).step_by(high) {
+                ui.label(RichText::new(labels(keys, language)).monospace().strong());
+                ui.label(language.text(*meaning));
+            }
+            ui.end_row();
+        }
+    });
+}
+
+/// Shows the help on a sheet of its own, which it fills.
+pub fn sheet(ui: &mut Ui, language: Language, kiosk: bool) {
+    let whole = ui.max_rect();
+    Frame::window(ui.style()).shadow(Shadow::NONE).show(ui, |ui| {
+        ui.set_min_size(whole.size() - Vec2::splat(SHEET_MARGIN));
+        first(ui, language);
+        keys(ui, language, &rows(kiosk), 1);
+    });
+}
 
 /// Shows the help, and returns false once it is closed. In a kiosk the keys that do nothing there are left out.
 pub fn show(ui: &Ui, language: Language, kiosk: bool) -> bool {
@@ -63,30 +125,12 @@ pub fn show(ui: &Ui, language: Language, kiosk: bool) -> bool {
         .collapsible(false);
     window.show(ui.ctx(), |ui| {
         // All keys at a glance where there is room, else one below the other.
-        let rows: Vec<_> = KEYS.into_iter().filter(|(keys, _)| !kiosk || !NOT_IN_KIOSK.contains(keys)).collect();
         let columns = if screen.width() >= WIDE { 2 } else { 1 };
-        let bright = ui.visuals().strong_text_color();
         ui.set_max_width((screen.width() - 80.0).min(COLUMN * columns as f32));
-        Grid::new("first").num_columns(2).spacing([24.0, 7.0]).show(ui, |ui| {
-            for (what, how) in FIRST {
-                ui.label(RichText::new(language.text(what)).size(17.0).strong());
-                ui.label(RichText::new(language.text(how)).size(17.0).color(bright));
-                ui.end_row();
-            }
-        });
-        ui.separator();
+        first(ui, language);
         let height = (screen.height() - SURROUNDINGS).max(60.0);
         ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
-            Grid::new("keys").num_columns(2 * columns).spacing([20.0, 5.0]).show(ui, |ui| {
-                let high = rows.len().div_ceil(columns);
-                for number in 0..high {
-                    for (keys, meaning) in rows.iter().skip(number).step_by(high) {
-                        ui.label(RichText::new(*keys).monospace().strong());
-                        ui.label(language.text(*meaning));
-                    }
-                    ui.end_row();
-                }
-            });
+            keys(ui, language, &rows(kiosk), columns);
         });
     });
     open

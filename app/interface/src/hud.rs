@@ -203,8 +203,12 @@ fn number(value: f64) -> String {
 /// Text of a speed in km/h with about three digits; of a very large one in km/s.
 fn speed(kilometres_per_hour: f64) -> String {
     match kilometres_per_hour {
-        v if v < 1000.0 => format!("{v:.1} km/h"),
-        v => format!("{:.0} km/s", v / 3600.0),
+        v if v < 999.95 => format!("{v:.1} km/h"),
+        v if v < 99_999.5 => format!("{v:.0} km/h"),
+        v => {
+            let km_s = v / 3600.0;
+            format!("{km_s:.*} km/s", (2.0 - km_s.log10().floor()).max(0.0) as usize)
+        }
     }
 }
 
@@ -255,6 +259,21 @@ mod tests {
         let short = pace(&readings, |words| words.len() < whole.len());
         assert_eq!(short, "±5.0 arcmin   30.0 frames/s   F1 help · F3 menu");
         assert_eq!(pace(&Readings { kiosk: true, ..readings }, |_| true), "F1 help");
+    }
+
+    #[test]
+    fn speeds_have_three_digits() {
+        for (kilometres_per_hour, text) in [
+            (0.0, "0.0 km/h"),
+            (30.0, "30.0 km/h"),
+            (999.96, "1000 km/h"),
+            (2000.0, "2000 km/h"),
+            (5399.0, "5399 km/h"),
+            (100_000.0, "27.8 km/s"),
+            (299_792.458 * 3600.0, "299792 km/s"),
+        ] {
+            assert_eq!(speed(kilometres_per_hour), text);
+        }
     }
 
     #[test]

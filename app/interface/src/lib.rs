@@ -10,14 +10,19 @@ mod drawn_sheet;
 mod help;
 mod hud;
 mod menu;
+mod menu_drawing;
 mod menu_pages;
 mod menu_ride;
+mod menu_rows;
+mod menu_world;
 mod notices;
 
-pub use caption::{Caption, CaptionQuestion, ChosenAnswer, sheet as caption_sheet, window as caption_window};
+pub use caption::{
+    Caption, CaptionQuestion, ChosenAnswer, film as caption_film, sheet as caption_sheet, window as caption_window,
+};
 pub use clock_table::{ClockRow, show as show_clocks};
-pub use drawn_sheet::{DrawnSheet, SheetPointer, key_events};
-pub use help::show as show_help;
+pub use drawn_sheet::{DrawnSheet, FORMAT as SHEET_FORMAT, SheetPointer, key_events};
+pub use help::{sheet as help_sheet, show as show_help};
 pub use hud::{Readings, pace_line, show as show_readings, speed_line};
 pub use menu::{MenuPage, sheet as menu_sheet, show as menu_contents, window as menu_window};
 pub use menu_ride::MenuRide;

@@ -1,14 +1,16 @@
 //! Pages of the menu.
 
 use crate::controls::Controls;
+use crate::menu_drawing::drawing;
 use crate::menu_ride::MenuRide;
+use crate::menu_rows::row;
 use clap::ValueEnum;
-use egui::{Align, Layout, RichText, ScrollArea, Slider, SliderClamping, Ui, Vec2};
+use egui::{RichText, ScrollArea, Slider, SliderClamping, Ui};
 use hardware::heard::DeviceReport;
 use input::{Action, Setting, Switch, TrackingMode, VehicleKind};
 use presentation::{Latency, Presentation, colouring};
 use render::display::{Exposure, Gamut, Tone, development};
-use view::Colouring;
+use view::{Colouring, Places};
 use words::{Language, Phrase};
 
 /// Largest height of the section on devices, points.
@@ -48,13 +50,22 @@ const BUTTONS: [(Phrase, Action, Phrase); 5] = [
     (Phrase::PhotoSphere, Action::PhotoSphere, Phrase::PhotoSpherePurpose),
 ];
 
+/// Views, with their purposes.
+const VIEWS: [(Places, Phrase); 3] = [
+    (Places::Seen, Phrase::SeenPurpose),
+    (Places::Measured, Phrase::MeasuredPurpose),
+    (Places::Instant, Phrase::InstantPurpose),
+];
+
 /// Switches of what explains, with their purposes.
-const SWITCHES: [(Switch, Phrase, Phrase); 6] = [
+const SWITCHES: [(Switch, Phrase, Phrase); 8] = [
     (Switch::Outside, Phrase::Outside, Phrase::OutsidePurpose),
     (Switch::Frozen, Phrase::Freeze, Phrase::FreezePurpose),
     (Switch::Miniature, Phrase::Miniature, Phrase::MiniaturePurpose),
     (Switch::Diagram, Phrase::Diagram, Phrase::DiagramPurpose),
     (Switch::DiagramOfVehicle, Phrase::DiagramOfVehicle, Phrase::DiagramOfVehiclePurpose),
+    (Switch::Clocks, Phrase::Clocks, Phrase::ClocksPurpose),
+    (Switch::Planner, Phrase::Planner, Phrase::PlannerPurpose),
     (Switch::Readings, Phrase::Readings, Phrase::ReadingsPurpose),
 ];
 
@@ -92,15 +103,6 @@ pub fn ride(ui: &mut Ui, presentation: &Presentation, state: &MenuRide, actions:
             actions.push(Action::TimeScale(scale));
         }
     });
-    if !state.places.is_empty() {
-        row(ui, language, Phrase::Places, |ui| {
-            for (name, place) in &state.places {
-                if Controls::new(ui, language).named_button(name, Phrase::PlacePurpose) {
-                    actions.push(Action::Jump(*place));
-                }
-            }
-        });
-    }
     ui.separator();
     ui.horizontal_wrapped(|ui| {
         for (label, action, purpose) in BUTTONS {
@@ -155,6 +157,7 @@ pub fn picture(ui: &mut Ui, presentation: &Presentation, state: &MenuRide, actio
             }
         });
     }
+    drawing(ui, language, state, actions);
     if state.overlaps {
         row(ui, language, Phrase::Frames, |ui| {
             for (latency, name, purpose) in LATENCIES {
@@ -182,9 +185,10 @@ pub fn picture(ui: &mut Ui, presentation: &Presentation, state: &MenuRide, actio
 pub fn understand(ui: &mut Ui, presentation: &Presentation, actions: &mut Vec<Action>) {
     let language = presentation.language;
     row(ui, language, Phrase::View, |ui| {
-        for (turns, name, purpose) in presentation.views() {
-            if Controls::new(ui, language).choice(turns == 0, name, purpose) {
-                actions.extend(std::iter::repeat_n(Action::NextView, turns));
+        for (places, purpose) in VIEWS {
+            let chosen = presentation.effects.places == places;
+            if Controls::new(ui, language).choice(chosen, presentation::view(places), purpose) {
+                actions.push(Action::Set(Setting::View, places.name().to_owned()));
             }
         }
     });
@@ -247,24 +251,6 @@ fn devices(ui: &mut Ui, language: Language, devices: &[DeviceReport]) {
     });
 }
 
-/// Distance between two rows, points.
-const ROWS: f32 = 4.0;
-/// Width of the names at the left, points.
-const NAMES_WIDTH: f32 = 140.0;
-
-/// Row of controls with its name at the left.
-fn row(ui: &mut Ui, language: Language, name: Phrase, contents: impl FnOnce(&mut Ui)) {
-    ui.horizontal_top(|ui| {
-        let size = Vec2::new(NAMES_WIDTH, ui.spacing().interact_size.y);
-        ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
-            ui.set_min_width(NAMES_WIDTH);
-            ui.label(language.text(name));
-        });
-        ui.horizontal_wrapped(contents);
-    });
-    ui.add_space(ROWS);
-}
-
 /// Switch of the presentation.
 fn toggle(
     ui: &mut Ui,
@@ -318,7 +304,12 @@ mod tests {
 
     #[test]
     fn no_control_is_made_without_its_purpose() {
-        for source in [include_str!("menu_pages.rs"), include_str!("menu.rs")] {
+        for source in [
+            include_str!("menu_pages.rs"),
+            include_str!("menu.rs"),
+            include_str!("menu_world.rs"),
+            include_str!("menu_drawing.rs"),
+        ] {
             let menu = source.split("#[cfg(test)]").next().expect("a text has a first part");
             let makers = [
                 "ui.add(",

@@ -2,6 +2,7 @@
 
 use hardware::heard::DeviceReport;
 use input::{Place, TrackingMode, VehicleKind};
+use view::{Dial, RendererName};
 
 /// State of the ride that the menu shows.
 #[derive(Clone, Debug, Default)]
@@ -18,8 +19,18 @@ pub struct MenuRide {
     pub recording: bool,
     /// Use of the tracked head, if one is tracked.
     pub tracking: Option<TrackingMode>,
+    /// Name of the scene on the command line.
+    pub scene: String,
+    /// Tours, by their titles and their names on the command line.
+    pub tours: Vec<(String, &'static str)>,
     /// Places to jump to, with their names.
     pub places: Vec<(String, Place)>,
+    /// True if a recorded ride is shown.
+    pub is_recorded: bool,
+    /// Way of drawing that was asked for.
+    pub dial: Dial,
+    /// Method that draws.
+    pub drawn_by: RendererName,
     /// Reports on the devices.
     pub devices: Vec<DeviceReport>,
     /// Sentences about the renderer, the amount that it draws, and the windows.

@@ -8,4 +8,4 @@ mod presentation;
 mod texts;
 
 pub use latency::Latency;
-pub use presentation::{Presentation, colouring};
+pub use presentation::{Presentation, colouring, view};

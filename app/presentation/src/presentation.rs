@@ -39,6 +39,10 @@ pub struct Presentation {
     pub diagram: bool,
     /// True if the diagram is drawn in the vehicle's frame.
     pub diagram_of_vehicle: bool,
+    /// True if the readings of the scene's clocks are shown.
+    pub clocks: bool,
+    /// True if the planner is shown.
+    pub planner: bool,
 }
 
 impl Default for Presentation {
@@ -59,6 +63,8 @@ impl Default for Presentation {
             miniature: false,
             diagram: false,
             diagram_of_vehicle: false,
+            clocks: false,
+            planner: false,
         }
     }
 }
@@ -89,6 +95,8 @@ impl Presentation {
             Switch::Miniature => &mut self.miniature,
             Switch::Diagram => &mut self.diagram,
             Switch::DiagramOfVehicle => &mut self.diagram_of_vehicle,
+            Switch::Clocks => &mut self.clocks,
+            Switch::Planner => &mut self.planner,
         };
         Some(on)
     }
@@ -97,30 +105,13 @@ impl Presentation {
     /// say what has happened.
     pub fn act(&mut self, action: &Action) -> Option<String> {
         match action {
-            Action::Toggle(switch) => {
-                let on = !self.is_on(*switch);
-                match self.switch(*switch) {
-                    Some(state) => *state = on,
-                    None => self.effects.places = if on { Places::Seen } else { Places::Instant },
-                }
-                if *switch == Switch::Frozen && on {
-                    self.outside = true;
-                }
-                if *switch == Switch::Outside && !on {
-                    self.frozen = false;
-                }
-                let phrase = effect(*switch)?;
-                let said = if on { Phrase::On } else { Phrase::Off };
-                Some(self.language.fill(said, &[&self.language.text(phrase)]))
-            }
+            Action::Toggle(switch) => self.turn(*switch, !self.is_on(*switch)),
+            Action::Turn(switch, on) => self.turn(*switch, *on),
             Action::ToggleHelp => {
                 self.help = !self.help;
                 None
             }
-            Action::NextView => {
-                self.effects.places = self.effects.places.next();
-                Some(self.language.fill(Phrase::ViewIs, &[&self.language.text(self.view())]))
-            }
+            Action::NextView => self.next(Setting::View),
             Action::Expose(stops) => {
                 self.development.exposure = self.development.exposure.changed(*stops as f32);
                 Some(self.language.fill(Phrase::ExposureIs, &[&self.development.exposure]))
@@ -134,36 +125,32 @@ impl Presentation {
         }
     }
 
+    /// Turns a switch on or off.
+    fn turn(&mut self, switch: Switch, on: bool) -> Option<String> {
+        match self.switch(switch) {
+            Some(state) => *state = on,
+            None => self.effects.places = if on { Places::Seen } else { Places::Instant },
+        }
+        if switch == Switch::Frozen && on {
+            self.outside = true;
+        }
+        if switch == Switch::Outside && !on {
+            self.frozen = false;
+        }
+        let phrase = effect(switch)?;
+        let said = if on { Phrase::On } else { Phrase::Off };
+        Some(self.language.fill(said, &[&self.language.text(phrase)]))
+    }
+
     /// True for an action that a presentation carries out, and that a replay repeats. What the rider has opened to read
     /// or to choose is not opened again.
     pub fn repeats(action: &Action) -> bool {
         match action {
-            Action::Toggle(switch) => !matches!(switch, Switch::Menu | Switch::Readings),
+            Action::Toggle(switch) | Action::Turn(switch, _) => !matches!(switch, Switch::Menu | Switch::Readings),
             Action::Set(setting, _) | Action::Next(setting) => *setting != Setting::Language,
-            Action::NextView | Action::Expose(_) => true,
+            Action::NextView | Action::Expose(_) | Action::Orbit { .. } => true,
             _ => false,
         }
-    }
-
-    /// Name of the view.
-    pub fn view(&self) -> Phrase {
-        match self.effects.places {
-            Places::Seen => Phrase::Seen,
-            Places::Measured => Phrase::Measured,
-            Places::Instant => Phrase::Instant,
-        }
-    }
-
-    /// Views with their names and purposes, each with the number of times that [`Action::NextView`] leads there. The
-    /// switches of the light stay as they are.
-    pub fn views(&self) -> [(usize, Phrase, Phrase); 3] {
-        let number = |places: Places| Places::ALL.iter().position(|known| *known == places).unwrap_or_default();
-        let turns = |places| (number(places) + Places::ALL.len() - number(self.effects.places)) % Places::ALL.len();
-        [
-            (turns(Places::Seen), Phrase::Seen, Phrase::SeenPurpose),
-            (turns(Places::Measured), Phrase::Measured, Phrase::MeasuredPurpose),
-            (turns(Places::Instant), Phrase::Instant, Phrase::InstantPurpose),
-        ]
     }
 
     /// Takes the next value of a setting that has a few.
@@ -185,13 +172,25 @@ impl Presentation {
                 self.language = self.language.next();
                 None
             }
-            Setting::Effects => self.act(&Action::NextView),
+            Setting::Effects | Setting::View => {
+                self.effects.places = self.effects.places.next();
+                Some(self.language.fill(Phrase::ViewIs, &[&self.language.text(view(self.effects.places))]))
+            }
             Setting::Colouring => {
                 self.colouring = self.colouring.next();
                 Some(self.language.fill(Phrase::ColouringIs, &[&self.language.text(colouring(self.colouring))]))
             }
             Setting::Fov | Setting::Exposure | Setting::Renderer => None,
         }
+    }
+}
+
+/// Name of a view.
+pub fn view(places: Places) -> Phrase {
+    match places {
+        Places::Seen => Phrase::Seen,
+        Places::Measured => Phrase::Measured,
+        Places::Instant => Phrase::Instant,
     }
 }
 

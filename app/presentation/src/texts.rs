@@ -5,15 +5,18 @@ use clap::ValueEnum;
 use input::{Action, Setting};
 use render::display::development;
 use std::collections::BTreeMap;
-use view::Colouring;
-use view::{Effects, Places};
+use view::{Colouring, Dial, Effects, Places};
 
 /// Field of view that can be drawn, degrees, as on the command line.
 const FOV_DEG: std::ops::RangeInclusive<f64> = 1.0..=170.0;
 
+/// Name of the text that says which effects of light are switched on, whether or not the view shows them.
+const LIGHT: &str = "light";
+
 /// Settings by their names.
-const NAMES: [(&str, Setting); 9] = [
+const NAMES: [(&str, Setting); 10] = [
     ("effects", Setting::Effects),
+    ("view", Setting::View),
     ("fov", Setting::Fov),
     ("exposure", Setting::Exposure),
     ("tone", Setting::Tone),
@@ -34,13 +37,18 @@ impl Presentation {
                 let measured = effects.places == Places::Measured;
                 self.effects = if measured { Effects { places: effects.places, ..self.effects } } else { effects };
             }
+            Setting::View => self.effects.places = Places::named(text)?,
             Setting::Fov => self.fov_deg = text.parse().ok().filter(|fov| FOV_DEG.contains(fov))?,
             Setting::Exposure => self.development.exposure = text.parse().ok()?,
             Setting::Tone => self.development.tone = choice(text)?,
             Setting::Gamut => self.development.gamut = choice(text)?,
             Setting::Latency => self.latency = choice(text)?,
             Setting::Renderer if text.is_empty() => self.dial = None,
-            Setting::Renderer => self.dial = Some(text.parse().ok()?),
+            Setting::Renderer => {
+                let dial: Dial = text.parse().ok()?;
+                dial.check_for_ride().ok()?;
+                self.dial = Some(dial);
+            }
             Setting::Language => self.language = text.parse().ok()?,
             Setting::Colouring => self.colouring = Colouring::ALL.into_iter().find(|known| known.name() == text)?,
         }
@@ -51,6 +59,7 @@ impl Presentation {
     pub fn text(&self, setting: Setting) -> String {
         match setting {
             Setting::Effects => self.effects.to_string(),
+            Setting::View => self.effects.places.name().to_owned(),
             Setting::Fov => self.fov_deg.to_string(),
             Setting::Exposure => self.development.exposure.to_string(),
             Setting::Tone => development::name(&self.development.tone),
@@ -64,7 +73,9 @@ impl Presentation {
 
     /// JSON text of all settings, as it stands in a recording's header.
     pub fn to_json(&self) -> String {
-        let texts: BTreeMap<_, _> = NAMES.into_iter().map(|(name, setting)| (name, self.text(setting))).collect();
+        let mut texts: BTreeMap<_, _> = NAMES.into_iter().map(|(name, setting)| (name, self.text(setting))).collect();
+        let light = Self { effects: Effects { places: Places::Seen, ..self.effects }, ..*self };
+        texts.insert(LIGHT, light.text(Setting::Effects));
         serde_json::to_string(&texts).expect("texts are always JSON")
     }
 
@@ -72,6 +83,9 @@ impl Presentation {
     #[must_use]
     pub fn with_json(mut self, json: &str) -> Self {
         let texts: BTreeMap<String, String> = serde_json::from_str(json).unwrap_or_default();
+        if let Some(Ok(Effects { doppler, searchlight, .. })) = texts.get(LIGHT).map(|text| text.parse()) {
+            self.effects = Effects { doppler, searchlight, ..self.effects };
+        }
         for (name, setting) in NAMES {
             if let Some(text) = texts.get(name) {
                 self.act(&Action::Set(setting, text.clone()));
@@ -95,13 +109,14 @@ mod tests {
     use crate::latency::Latency;
     use input::Switch;
     use render::display::{Exposure, Tone};
-    use words::{Language, Phrase};
+    use words::Language;
 
     #[test]
     fn settings_survive_their_texts() {
         let mut other = Presentation::default();
         for (setting, text) in [
             (Setting::Effects, "geometry,doppler"),
+            (Setting::View, "seen"),
             (Setting::Fov, "75.5"),
             (Setting::Exposure, "auto-0.5"),
             (Setting::Tone, "filmic"),
@@ -122,8 +137,8 @@ mod tests {
     #[test]
     fn a_key_goes_through_three_views_and_round() {
         let mut shown = Presentation::default();
-        for name in [Phrase::Seen, Phrase::Measured, Phrase::Instant] {
-            assert_eq!(shown.view(), name);
+        for places in Places::ALL {
+            assert_eq!(shown.effects.places, places);
             shown.act(&Action::NextView);
         }
         assert_eq!(shown, Presentation::default());
@@ -133,7 +148,7 @@ mod tests {
     fn a_text_that_is_no_value_changes_nothing() {
         let before = Presentation::default();
         for (_, setting) in NAMES {
-            for text in ["", "171", "nan", "loud"] {
+            for text in ["", "171", "nan", "loud", "--renderer raytrace", "--tolerance nan", "--edge 1 --tolerance 1"] {
                 if setting == Setting::Renderer && text.is_empty() {
                     continue;
                 }
@@ -150,14 +165,16 @@ mod tests {
 
     #[test]
     fn every_view_is_reached_and_keeps_the_switches_of_the_light() {
-        for (number, view) in [Phrase::Seen, Phrase::Measured, Phrase::Instant].into_iter().enumerate() {
-            let mut after = Presentation::default();
-            after.act(&Action::Toggle(Switch::Doppler));
-            let (turns, name, _) = after.views()[number];
-            (0..turns).for_each(|_| drop(after.act(&Action::NextView)));
-            assert_eq!((after.view(), name), (view, view));
-            assert!(!after.effects.doppler && after.effects.searchlight);
-            assert_eq!(after.views()[number].0, 0);
+        for before in Places::ALL {
+            for view in Places::ALL {
+                let mut after = Presentation::default();
+                after.act(&Action::Set(Setting::View, before.name().to_owned()));
+                after.act(&Action::Toggle(Switch::Doppler));
+                after.act(&Action::Set(Setting::View, view.name().to_owned()));
+                assert_eq!(after.effects, Effects { places: view, doppler: false, searchlight: true });
+                // What is written keeps the switches that the view does not show.
+                assert_eq!(Presentation::default().with_json(&after.to_json()), after);
+            }
         }
     }
 
@@ -173,6 +190,8 @@ mod tests {
             Switch::Miniature,
             Switch::Diagram,
             Switch::DiagramOfVehicle,
+            Switch::Clocks,
+            Switch::Planner,
         ] {
             let mut after = Presentation::default();
             let before = after.is_on(switch);
@@ -180,6 +199,10 @@ mod tests {
             assert_eq!(after.is_on(switch), !before, "{switch:?}");
             after.act(&Action::Toggle(switch));
             assert_eq!(after, Presentation::default(), "{switch:?}");
+            for on in [true, true, false, false] {
+                after.act(&Action::Turn(switch, on));
+                assert_eq!(after.is_on(switch), on, "{switch:?}");
+            }
         }
         // What is frozen is seen from outside, and whoever goes back in thaws it.
         let mut frozen = Presentation::default();

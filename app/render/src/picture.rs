@@ -101,13 +101,27 @@ impl Sheet {
     ///
     /// # Errors
     /// [`GpuError`] if the device went away or the bytes cannot be read.
-    pub fn fetch(&self, gpu: &Gpu, mut encoder: wgpu::CommandEncoder) -> Result<Vec<u8>, GpuError> {
+    pub fn fetch(&self, gpu: &Gpu, encoder: wgpu::CommandEncoder) -> Result<Vec<u8>, GpuError> {
+        self.fetch_from(gpu, encoder, &self.texture)
+    }
+
+    /// Bytes of a texture of the sheet's size and format that can be copied from, row by row, after the commands of
+    /// `encoder`.
+    ///
+    /// # Errors
+    /// [`GpuError`] if the device went away or the bytes cannot be read.
+    pub fn fetch_from(
+        &self,
+        gpu: &Gpu,
+        mut encoder: wgpu::CommandEncoder,
+        texture: &wgpu::Texture,
+    ) -> Result<Vec<u8>, GpuError> {
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(self.padded_row_bytes), rows_per_image: None };
         encoder.copy_texture_to_buffer(
-            self.texture.as_image_copy(),
+            texture.as_image_copy(),
             wgpu::TexelCopyBufferInfo { buffer: &self.readback, layout },
-            self.texture.size(),
+            texture.size(),
         );
         gpu.queue.submit([encoder.finish()]);
 

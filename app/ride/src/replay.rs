@@ -39,6 +39,11 @@ impl Replay<Recording> {
         self.entries.header().settings.get(key).map(String::as_str)
     }
 
+    /// Name of the scene that was ridden in, as on the command line.
+    pub fn scene(&self) -> &str {
+        &self.entries.header().scene
+    }
+
     /// Place at which another recording begins in the file behind this one, bytes. Asked for after the last frame.
     pub fn another(&self) -> Option<u64> {
         self.entries.another()

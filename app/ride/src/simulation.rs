@@ -105,6 +105,16 @@ impl Simulation {
         &self.vehicle
     }
 
+    /// True while the ride is held.
+    pub fn is_paused(&self) -> bool {
+        self.paused
+    }
+
+    /// Proper time per real time.
+    pub fn time_scale(&self) -> f64 {
+        self.time_scale
+    }
+
     /// Simulates up to the real time `at`. `samples` are all samples since the frame before; those dated later than
     /// `at` wait.
     pub fn frame(&mut self, at: Nanos, samples: &[Sample]) -> RideFrame {
@@ -189,6 +199,7 @@ impl Simulation {
     fn act(&mut self, action: Action, notices: &mut Vec<Notice>) {
         match action {
             Action::TogglePause => self.paused = !self.paused,
+            Action::Hold(hold) => self.paused = hold,
             Action::TimeScale(scale) => self.time_scale = scale.clamp(0.0, FASTEST_TIME_SCALE),
             Action::ScaleTime(factor) => self.time_scale = (self.time_scale * factor).clamp(0.0, FASTEST_TIME_SCALE),
             Action::SpeedOfLight(speed) => match LightSpeed::new(speed) {

@@ -1,11 +1,12 @@
 //! Stills and films of a scene, without a window, with progress and notices on the terminal.
 
-use crate::command::{DialOptions, PictureOptions, RayOptions, map_scale_of_stills};
+use crate::commands::film_titles::FilmTitles;
 use crate::error::Error;
 use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::interrupt::{interrupted, interruption};
 use crate::session::reel::Moment;
+use command::{DialOptions, PictureOptions, RayOptions, map_scale_of_stills};
 use image::RgbaImage;
 use picture_files::exr;
 use picture_files::files::save;
@@ -17,7 +18,7 @@ use scene::Scene;
 use std::path::Path;
 use std::sync::atomic::Ordering;
 use trace::{CameraLens, Optics, RayTracer, Traced};
-use view::{Dial, Gaze, Occasion, OutsideView, RendererName, Shot};
+use view::{Dial, Occasion, RendererName, Shot};
 
 /// Dial of pictures that are kept.
 pub fn dial_of_stills(dial: &DialOptions, picture: &PictureOptions) -> Dial {
@@ -36,11 +37,8 @@ pub struct Cameraman<'gpu> {
     maker: Maker,
     studio: Studio,
     options: PictureOptions,
-    /// Vertical field of view, degrees.
-    fov_deg: f64,
     dial: Dial,
-    /// Camera outside of the eye.
-    outside: Option<OutsideView>,
+    titles: Option<FilmTitles>,
 }
 
 impl<'gpu> Cameraman<'gpu> {
@@ -50,7 +48,6 @@ impl<'gpu> Cameraman<'gpu> {
     /// [`Error::TooLarge`] if the device cannot draw pictures of that size, [`Error::Refine`] if fixed edges cut the
     /// scene too finely.
     pub fn new(gpu: &'gpu Gpu, scene: Scene, options: &PictureOptions, dial: Dial) -> Result<Self, Error> {
-        let fov_deg = options.fov_deg(&scene.start);
         let limit = largest_side(gpu);
         if options.size.iter().any(|side| *side > limit) {
             return Err(Error::TooLarge { size: options.size, limit });
@@ -65,7 +62,7 @@ impl<'gpu> Cameraman<'gpu> {
             spinner.finish_and_clear();
             let studio = Studio::new(gpu, options.size, 1);
             let maker = Maker::Traced(Box::new(tracer));
-            return Ok(Self { gpu, maker, studio, options: options.clone(), fov_deg, dial, outside: None });
+            return Ok(Self { gpu, maker, studio, options: options.clone(), dial, titles: None });
         }
         let spinner = progress::cutting(dial);
         let Choice { scene, dial, because } = Choice::of(scene, dial, Occasion::Still)?;
@@ -77,7 +74,7 @@ impl<'gpu> Cameraman<'gpu> {
         gpu.wait()?;
         spinner.finish_and_clear();
         let maker = Maker::Drawn(Box::new(renderer));
-        Ok(Self { gpu, maker, studio, options: options.clone(), fov_deg, dial, outside: None })
+        Ok(Self { gpu, maker, studio, options: options.clone(), dial, titles: None })
     }
 
     /// Adds a lens, a shutter and mirrors, if this cameraman traces rays. `speed_of_light`: metres per second.
@@ -92,25 +89,27 @@ impl<'gpu> Cameraman<'gpu> {
         self
     }
 
-    /// Looks at the photo-surface from outside.
+    /// Writes over the pictures what their moments tell.
     #[must_use]
-    pub fn with_outside(self, outside: Option<OutsideView>) -> Self {
-        Self { outside, ..self }
+    pub fn with_titles(self, titles: FilmTitles) -> Self {
+        Self { titles: Some(titles), ..self }
     }
 
-    fn shot(&self, gaze: &Gaze) -> Shot {
-        let shot = gaze.shot(self.fov_deg, self.options.effects);
-        self.outside.map_or(shot, |outside| shot.from_outside(&outside))
+    fn shot(&self, moment: &Moment) -> Shot {
+        let shot = moment.gaze.shot(moment.look.fov_deg, moment.look.effects);
+        // Rays all end at the eye.
+        let outside = moment.look.outside.filter(|_| matches!(self.maker, Maker::Drawn(_)));
+        outside.map_or(shot, |outside| shot.from_outside(&outside))
     }
 
     /// Takes one picture and writes it as PNG.
     ///
     /// # Errors
     /// A lost device, a place that cannot be written, or [`Error::Interrupted`].
-    pub fn still(&mut self, gaze: Gaze, path: &Path) -> Result<(), Error> {
-        let pending = self.submit(&gaze)?;
-        let picture = self.take(&gaze, pending, None)?;
-        self.tell_of_quality(&gaze);
+    pub fn still(&mut self, moment: &Moment, path: &Path) -> Result<(), Error> {
+        let pending = self.submit(moment)?;
+        let picture = self.take(moment, pending, None)?;
+        self.tell_of_quality(moment);
         save(&picture, path)?;
         tell(format_args!("wrote {}", path.display()));
         Ok(())
@@ -120,14 +119,14 @@ impl<'gpu> Cameraman<'gpu> {
     ///
     /// # Errors
     /// A lost device, or a place that cannot be written.
-    pub fn light(&mut self, gaze: Gaze, path: &Path) -> Result<(), Error> {
-        let pending = self.submit(&gaze)?;
-        let shot = self.shot(&gaze);
+    pub fn light(&mut self, moment: &Moment, path: &Path) -> Result<(), Error> {
+        let pending = self.submit(moment)?;
+        let shot = self.shot(moment);
         let light = match &mut self.maker {
             Maker::Drawn(renderer) => self.studio.expose(self.gpu, renderer, &shot, pending)?,
             Maker::Traced(tracer) => traced(tracer, &shot, &self.options)?.image(),
         };
-        self.tell_of_quality(&gaze);
+        self.tell_of_quality(moment);
         exr::save(&light, path)?;
         tell(format_args!("wrote {}", path.display()));
         Ok(())
@@ -159,7 +158,7 @@ impl<'gpu> Cameraman<'gpu> {
         while let Some((moment, pending)) = next {
             next = self.begin(if stop.load(Ordering::Relaxed) { None } else { moments.next().transpose()? })?;
             let elapsed_s = before.replace(moment.own_s).map(|before| moment.own_s - before);
-            let picture = match self.take(&moment.gaze, pending, elapsed_s) {
+            let picture = match self.take(&moment, pending, elapsed_s) {
                 Err(Error::Interrupted) => break,
                 picture => picture?,
             };
@@ -191,9 +190,9 @@ impl<'gpu> Cameraman<'gpu> {
 
     /// Says how the picture was cut, if its map could not be as fine as was wanted, and if it is more than a pixel
     /// off.
-    fn tell_of_quality(&self, gaze: &Gaze) {
+    fn tell_of_quality(&self, moment: &Moment) {
         let Maker::Drawn(renderer) = &self.maker else { return };
-        let shot = self.shot(gaze);
+        let shot = self.shot(moment);
         let certainty = renderer.certainty(&shot, self.options.size);
         if certainty.error_px() > 1.0 {
             tell(certainty.sentence());
@@ -220,20 +219,24 @@ impl<'gpu> Cameraman<'gpu> {
 
     /// Begins the next picture of a film.
     fn begin(&mut self, next: Option<Moment>) -> Result<Option<(Moment, Pending)>, Error> {
-        next.map(|moment| Ok((moment, self.submit(&moment.gaze)?))).transpose()
+        next.map(|moment| {
+            let pending = self.submit(&moment)?;
+            Ok((moment, pending))
+        })
+        .transpose()
     }
 
-    fn submit(&mut self, gaze: &Gaze) -> Result<Pending, Error> {
+    fn submit(&mut self, moment: &Moment) -> Result<Pending, Error> {
         Ok(match &mut self.maker {
-            Maker::Drawn(renderer) => renderer.submit(self.gpu, &gaze.observer, self.options.effects)?,
+            Maker::Drawn(renderer) => renderer.submit(self.gpu, &moment.gaze.observer, moment.look.effects)?,
             Maker::Traced(_) => Pending::default(),
         })
     }
 
-    fn take(&mut self, gaze: &Gaze, pending: Pending, elapsed_s: Option<f64>) -> Result<RgbaImage, Error> {
-        let shot = self.shot(gaze);
-        let development = self.options.development();
-        Ok(match &mut self.maker {
+    fn take(&mut self, moment: &Moment, pending: Pending, elapsed_s: Option<f64>) -> Result<RgbaImage, Error> {
+        let shot = self.shot(moment);
+        let development = moment.look.development;
+        let mut picture = match &mut self.maker {
             Maker::Drawn(renderer) => {
                 self.studio.photograph(self.gpu, renderer, &shot, pending, &development, elapsed_s)?
             }
@@ -241,7 +244,11 @@ impl<'gpu> Cameraman<'gpu> {
                 let traced = traced(tracer, &shot, &self.options)?;
                 self.studio.develop(self.gpu, &traced.texels(), traced.stored, &development, elapsed_s)?
             }
-        })
+        };
+        if let (Some(titles), Some(told)) = (&mut self.titles, &moment.told) {
+            titles.write(self.gpu, told, &mut picture)?;
+        }
+        Ok(picture)
     }
 }
 

@@ -1,9 +1,9 @@
 //! `rapidity check`: checks scenes, displays and recordings, and reports what is wrong with them.
 
-use crate::command::{CheckOptions, ReadingOptions};
 use crate::error::Error;
 use crate::output::say::{say, say_exactly, tell};
 use crate::session::gaps::ShownTimes;
+use command::{CheckOptions, ReadingOptions};
 use hardware::SetUp;
 use input::recording::{Recording, RecordingEntry, RecordingError};
 use room::Display;

@@ -1,9 +1,9 @@
 //! `rapidity devices`: lists the devices that are plugged in, and their present values.
 
-use crate::command::DevicesOptions;
 use crate::commands::calibrate::calibrate;
 use crate::error::Error;
 use crate::session::interrupt::interrupted;
+use command::DevicesOptions;
 use glam::EulerRot;
 use hardware::heard;
 use hardware::{BicyclePort, SetUp};

@@ -11,13 +11,14 @@ use measure::plot::plot;
 use measure::table::{self, Line};
 use measure::views::{self, FOV_DEGREES, Views};
 use measure::{OF_RIDES, OF_STILLS, Row, precision, samples, shift_table, steps};
+use presentation::Presentation;
 use render::Gpu;
 use render::picture::largest_side;
 use ride::LightSpeed;
+use scene::Start;
 use trace::RayTracer;
 use view::Gaze;
 
-use crate::command::MeasureOptions;
 use crate::error::Error;
 use crate::output::progress;
 use crate::output::say::{say, tell};
@@ -25,6 +26,7 @@ use crate::session::interrupt::interrupted;
 use crate::session::preferences::Preferences;
 use crate::session::reel::{self, Ridden};
 use crate::session::scenes::{self, World};
+use command::MeasureOptions;
 use picture_files::files::{WriteError, whole, writable};
 
 /// Pictures per second at which poses are taken from a recording.
@@ -175,7 +177,10 @@ fn looked_at(options: &MeasureOptions) -> Result<Views, Error> {
         let shots = views::along_circuit(&scene, options.poses);
         return Ok(Views { scene, light_speed, shots });
     };
-    let Ridden { scene, speed_of_light, reel } = reel::reel(recording, &options.world, LOOKED_THROUGH, None)?;
+    let Ridden { scene, speed_of_light, reel } = {
+        let plain = |_: &Start| (Presentation::default(), true);
+        reel::reel(recording, &options.world, (LOOKED_THROUGH, None), plain)?
+    };
     let light_speed = LightSpeed::new(speed_of_light)?;
     let gazes: Vec<Gaze> = reel.evenly(options.poses).map(|moment| moment.gaze).collect();
     if gazes.is_empty() {
@@ -214,7 +219,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a folder that cannot be read is a failed test")]
 
     use super::*;
-    use crate::command::{Command, parse_from};
+    use command::{Command, parse_from};
     use view::Dial;
 
     #[test]

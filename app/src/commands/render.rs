@@ -3,14 +3,14 @@
 //! A film without a recording shows what an inertial observer sees: the eye moves on a straight worldline, and the
 //! frames are taken at equal steps of its proper time. A recorded ride is seen with the rider's eyes.
 
-use crate::command::{Output, RenderOptions, Viewpoint};
 use crate::commands::cameraman::{Cameraman, dial_of_stills};
 use crate::commands::render_room;
 use crate::error::Error;
 use crate::output::say::tell;
 use crate::session::interrupt::interrupted;
-use crate::session::reel::{self, Moment, Ridden};
+use crate::session::reel::{self, Look, Moment, Ridden};
 use crate::session::scenes::{self, World};
+use command::{Output, RenderOptions, Viewpoint};
 use physics::{Event, Observer};
 use picture_files::files::writable;
 use render::Gpu;
@@ -42,19 +42,20 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     let World { scene, speed_of_light_m_s: speed_of_light } = scenes::load(&options.world)?;
     let start = scene.start;
     let camera = Cameraman::new(&gpu, scene, &options.picture, dial_of_stills(&options.dial, &options.picture))?;
-    let mut camera = camera.with_rays(&options.rays, speed_of_light).with_outside(options.outside);
+    let mut camera = camera.with_rays(&options.rays, speed_of_light);
+    let look = Look::of(&options.picture.presentation(&start), options.outside);
+    let moment = |own_s: f64| {
+        let gaze = inertial(&options.viewpoint, start, own_s * speed_of_light);
+        Moment { gaze, own_s, look, told: None }
+    };
     match &options.out {
-        Output::Picture(path) => camera.still(inertial(&options.viewpoint, start, 0.0), path),
-        Output::Light(path) => camera.light(inertial(&options.viewpoint, start, 0.0), path),
+        Output::Picture(path) => camera.still(&moment(0.0), path),
+        Output::Light(path) => camera.light(&moment(0.0), path),
         Output::Folder(path) => Ok(writable(path)?),
         Output::Film(path) => {
             let rate = options.frames_per_second();
             let count = (options.seconds.unwrap_or(FILM_SECONDS) * rate).round().max(1.0);
-            let moment = |frame: u64| {
-                let own_s = frame as f64 / rate;
-                Ok(Moment { gaze: inertial(&options.viewpoint, start, own_s * speed_of_light), own_s })
-            };
-            camera.film((0..count as u64).map(moment), count as u64, rate, path)
+            camera.film((0..count as u64).map(|frame| Ok(moment(frame as f64 / rate))), count as u64, rate, path)
         }
     }
 }
@@ -62,16 +63,23 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
 /// Draws the picture or film as a recorded rider saw it.
 fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result<(), Error> {
     let rate = options.frames_per_second();
-    let Ridden { scene, speed_of_light, reel } = reel::reel(recording, &options.world, rate, options.seconds)?;
+    let shown = |start: &Start| (options.picture.presentation(start), options.picture.is_given);
+    let ridden = reel::reel(recording, &options.world, (rate, options.seconds), shown)?;
+    let Ridden { scene, speed_of_light, reel } = ridden;
     let camera = Cameraman::new(gpu, scene, &options.picture, dial_of_stills(&options.dial, &options.picture))?;
-    let mut camera = camera.with_rays(&options.rays, speed_of_light).with_outside(options.outside);
+    let mut camera = camera.with_rays(&options.rays, speed_of_light);
+    let seen = |mut moment: Moment| {
+        moment.look.outside = options.outside.or(moment.look.outside);
+        moment
+    };
+    let last = || reel.last().map(seen).ok_or(Error::NothingRidden);
     match &options.out {
-        Output::Picture(path) => camera.still(reel.last().ok_or(Error::NothingRidden)?.gaze, path),
-        Output::Light(path) => camera.light(reel.last().ok_or(Error::NothingRidden)?.gaze, path),
+        Output::Picture(path) => camera.still(&last()?, path),
+        Output::Light(path) => camera.light(&last()?, path),
         Output::Folder(path) => Ok(writable(path)?),
         Output::Film(path) => {
             let count = reel.len();
-            camera.film(reel.pictures().map(Ok), count, rate, path)
+            camera.film(reel.pictures().map(|moment| Ok(seen(moment))), count, rate, path)
         }
     }
 }

@@ -1,11 +1,11 @@
 //! `rapidity render --display`: a picture for every channel of a room.
 
-use crate::command::RenderOptions;
 use crate::commands::cameraman::dial_of_stills;
 use crate::error::Error;
 use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::scenes;
+use command::RenderOptions;
 use glam::DVec3;
 use physics::Event;
 use physics::worldline::{Thrust, WorldlineState};

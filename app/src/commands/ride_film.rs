@@ -3,26 +3,25 @@
 //! Drawing may be slower than riding, and devices do not wait. So a live ride is recorded in real time, and the film
 //! is drawn when the ride has ended. A recorded rider and the built-in tour need no clock.
 
-use crate::command::RideOptions;
 use crate::commands::cameraman::{Cameraman, dial_of_stills};
+use crate::commands::tour_film;
 use crate::error::Error;
 use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::interrupt::interrupted;
-use crate::session::reel::{Reel, Ridden, reel};
+use crate::session::reel::{FRAMES_PER_SECOND, Reel, Ridden, reel};
 use crate::session::scenes;
 use crate::session::start::{RideRoom, first_actions, prepared, present};
+use command::RideOptions;
 use hardware::SetUp;
 use input::{KeyboardKey, Nanos, SECOND, Sample, VehicleKind};
 use render::Gpu;
 use ride::{LogError, RideLog, Simulation, Tour};
-use scene::Scene;
+use scene::{Scene, Start};
 use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-/// Pictures per second of the film.
-const FRAMES_PER_SECOND: u32 = 30;
 /// Length of a ride without `--seconds`, seconds.
 const SECONDS: f64 = 10.0;
 /// Number of simulated frames of a live ride for each picture of the film.
@@ -36,13 +35,15 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
     // Without a graphics device the ride is not begun.
     let gpu = Gpu::new()?;
     let seconds = options.seconds.unwrap_or(SECONDS);
-    let (scene, reel, recorded) = match &options.replay {
-        Some(recording) => {
-            let rate = f64::from(FRAMES_PER_SECOND);
-            let Ridden { scene, reel, .. } = reel(recording, &options.world, rate, options.seconds)?;
+    let rate = f64::from(FRAMES_PER_SECOND);
+    let (scene, reel, recorded) = match (&options.replay, &options.tour) {
+        (Some(recording), _) => {
+            let shown = |start: &Start| (options.presentation(start), options.picture.is_given);
+            let Ridden { scene, reel, .. } = reel(recording, &options.world, (rate, options.seconds), shown)?;
             (scene, reel, Ok(()))
         }
-        None => {
+        (None, Some(name)) => return tour_film::film(&gpu, options, name, path),
+        (None, None) => {
             let world = scenes::load(&options.world)?;
             let room = RideRoom::of(options)?;
             let (simulation, mut log) = prepared(options, &world, &room.set_up, room.head)?;
@@ -50,17 +51,18 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
             if let Some(path) = &options.record {
                 log.record(path)?;
             }
+            let reel = Reel::new(rate, seconds, options.presentation(&scene.start));
             let (reel, recorded) = if options.devices.are_ridden() || room.set_up.names_a_ride()? || options.realtime {
-                follow(options, &room.set_up, simulation, log, seconds)?
+                follow(options, &room.set_up, simulation, log, (reel, seconds))?
             } else {
-                demonstrate(options, &scene, simulation, log, seconds)?
+                demonstrate(options, &scene, simulation, log, reel)?
             };
             (scene, reel, recorded)
         }
     };
     let mut camera = Cameraman::new(&gpu, scene, &options.picture, dial_of_stills(&options.dial, &options.picture))?;
     let count = reel.len();
-    camera.film(reel.pictures().map(Ok), count, f64::from(FRAMES_PER_SECOND), path)?;
+    camera.film(reel.pictures().map(Ok), count, rate, path)?;
     // What was ridden is filmed even if it could not be recorded.
     Ok(recorded?)
 }
@@ -74,13 +76,12 @@ fn follow(
     set_up: &SetUp,
     simulation: Simulation,
     log: RideLog,
-    seconds: f64,
+    (mut reel, seconds): (Reel, f64),
 ) -> Result<Followed, Error> {
     let options = RideOptions { seconds: Some(seconds), ..options.clone() };
     let mut live = present(&options, set_up, simulation, log, None)?;
     let stop = interrupted();
     let spinner = progress::spinner("riding");
-    let mut reel = Reel::new(f64::from(FRAMES_PER_SECOND), seconds);
     let period = SECOND / Nanos::from(FRAMES_PER_SECOND * FRAMES_PER_PICTURE);
     while !stop.load(Ordering::Relaxed) {
         let Some(frame) = live.frame()? else { break };
@@ -102,10 +103,9 @@ fn demonstrate(
     scene: &Scene,
     mut simulation: Simulation,
     mut log: RideLog,
-    seconds: f64,
+    mut reel: Reel,
 ) -> Result<Followed, Error> {
     let mut rider = Demonstrator::new(scene, &simulation);
-    let mut reel = Reel::new(f64::from(FRAMES_PER_SECOND), seconds);
     let stop = interrupted();
     while !stop.load(Ordering::Relaxed) {
         let at = reel.due();

@@ -1,9 +1,9 @@
 //! `rapidity town`: the built-in old town as a glTF file.
 
-use crate::command::TownOptions;
 use crate::error::Error;
 use crate::output::say::tell;
 use built_in::town;
+use command::TownOptions;
 use picture_files::files::writable;
 use scene_files::export::write_glb;
 

@@ -121,9 +121,11 @@ impl Live {
         self.tour.as_ref()?.caption(self.language)
     }
 
-    /// Carries out an action that concerns the tour. True if it was one.
-    pub fn act_on_tour(&mut self, action: &Action) -> bool {
-        self.tour.as_mut().is_some_and(|tour| tour.act(action))
+    /// Carries out an action that concerns the tour, if there is one.
+    pub fn act_on_tour(&mut self, action: &Action) {
+        if let Some(tour) = &mut self.tour {
+            tour.act(action);
+        }
     }
 
     /// True while passers-by are invited: the attract ride is shown.
@@ -219,7 +221,8 @@ impl Live {
                 let mut samples = devices.drain();
                 samples.append(&mut self.said);
                 if let Some(tour) = &mut self.tour {
-                    samples.append(&mut tour.samples(now, simulation.vehicle()));
+                    samples.retain(|sample| !tour.replaces(sample.source));
+                    samples.append(&mut tour.samples(now, simulation));
                 }
                 samples.sort_by_key(|sample| sample.at);
                 if let Some(kiosk) = &mut self.kiosk {

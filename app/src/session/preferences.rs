@@ -22,13 +22,13 @@ use thiserror::Error;
 
 use input::KeyMap;
 use regular_file::FileFault;
-use view::{Dial, RendererName, Transform};
+use view::Dial;
 use words::Language;
 
 use toml_edit::{DocumentMut, Item, Table, value};
 
-use crate::command::{DialOptions, RideOptions};
 use crate::output::say::tell;
+use command::{DialOptions, RideOptions};
 use picture_files::files::whole;
 
 /// Name of the file.
@@ -91,7 +91,9 @@ impl Preferences {
             Ok(None) => (Self::default(), None),
             Err(error) => {
                 tell(&error);
-                if let Some(aside) = set_aside(&path) {
+                // A file that only cannot be read now stays where it is.
+                let is_text = regular_file::read(&path, LONGEST).is_ok();
+                if let Some(aside) = is_text.then(|| set_aside(&path)).flatten() {
                     tell(format_args!("{}: set aside as {}; the usual settings hold", path.display(), aside.display()));
                 }
                 (Self::default(), None)
@@ -103,7 +105,10 @@ impl Preferences {
     fn read(path: &Path) -> Result<Option<Self>, PreferencesError> {
         let unreadable = |reason: String| PreferencesError::Unreadable { path: path.to_owned(), reason };
         match regular_file::read(path, LONGEST) {
-            Ok(bytes) => Self::from_toml(&String::from_utf8_lossy(&bytes)).map(Some).map_err(unreadable),
+            Ok(bytes) => {
+                let text = String::from_utf8(bytes).map_err(|_| unreadable("it is no text in UTF-8".to_owned()))?;
+                Self::from_toml(&text).map(Some).map_err(unreadable)
+            }
             Err(FileFault::System(error)) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
             Err(error) => Err(unreadable(error.to_string())),
         }
@@ -144,34 +149,8 @@ impl Preferences {
             format!("{place}{}", error.message().lines().collect::<Vec<_>>().join(" "))
         })?;
         preferences.keys.check().map_err(|error| error.to_string())?;
-        let Some(Dial { renderer, edge, transform, tolerance, map_scale }) = preferences.ride else {
-            return Ok(preferences);
-        };
-        if renderer == RendererName::Raytrace {
-            return Err(
-                "renderer is \"raytrace\", which is too slow for a ride: expected auto, polygon or image".to_owned()
-            );
-        }
-        let limits = [
-            ("edge", edge, f64::MIN_POSITIVE, f64::MAX),
-            ("tolerance", tolerance, 0.01, 100.0),
-            ("map-scale", map_scale, 0.1, 16.0),
-        ];
-        for (key, value, least, most) in limits {
-            if let Some(value) = value.filter(|value| !(least..=most).contains(value)) {
-                let expected = if key == "edge" {
-                    "a finite number above 0".to_owned()
-                } else {
-                    format!("a number from {least} to {most}")
-                };
-                return Err(format!("{key} is {value}: expected {expected}"));
-            }
-        }
-        if edge.is_some() && tolerance.is_some() {
-            return Err("edge and tolerance exclude each other".to_owned());
-        }
-        if transform == Some(Transform::Gpu) && edge.is_none() {
-            return Err("transform is \"gpu\", which needs edge, as on the command line".to_owned());
+        if let Some(dial) = &preferences.ride {
+            dial.check_for_ride().map_err(|fault| fault.to_string())?;
         }
         Ok(preferences)
     }
@@ -179,14 +158,18 @@ impl Preferences {
 
 /// Changes the file at `path`, and keeps everything else in it. A file that is no TOML is set aside.
 fn change(path: &Path, change: impl FnOnce(&mut DocumentMut)) -> Result<(), PreferencesError> {
-    let text = regular_file::read(path, LONGEST).map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    let unreadable = |reason: String| PreferencesError::Unreadable { path: path.to_owned(), reason };
+    let text = match regular_file::read(path, LONGEST) {
+        Ok(bytes) => String::from_utf8(bytes).ok(),
+        Err(FileFault::System(error)) if error.kind() == std::io::ErrorKind::NotFound => Some(String::new()),
+        Err(error) => return Err(unreadable(error.to_string())),
+    };
     let mut document = match text.as_deref().map(str::parse::<DocumentMut>) {
-        Ok(Ok(document)) => document,
-        Ok(Err(_)) => {
-            set_aside(path);
+        Some(Ok(document)) => document,
+        Some(Err(_)) | None => {
+            set_aside(path).ok_or_else(|| unreadable("it is no TOML, and cannot be set aside".to_owned()))?;
             DocumentMut::new()
         }
-        Err(_) => DocumentMut::new(),
     };
     change(&mut document);
     let folder = path.parent().unwrap_or(Path::new("."));
@@ -263,12 +246,16 @@ mod tests {
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.contains("# mine") && text.contains("# with a flash"), "{text}");
         assert_eq!(Preferences::from_toml(&text).unwrap().language, Some(Language::German));
-        for number in 1..3 {
-            std::fs::write(&path, "[keys").unwrap();
+        for (number, broken) in [(1, &b"[keys"[..]), (2, b"# caf\xe9\n")] {
+            std::fs::write(&path, broken).unwrap();
             change(&path, german).unwrap();
             let aside = path.with_extension(format!("toml.broken-{number}"));
-            assert_eq!(std::fs::read_to_string(aside).unwrap(), "[keys");
+            assert_eq!(std::fs::read(aside).unwrap(), broken);
         }
+        // What cannot be read is not written over.
+        std::fs::File::create(&path).unwrap().set_len(LONGEST + 1).unwrap();
+        assert!(change(&path, german).unwrap_err().to_string().contains("larger than"));
+        assert_eq!(std::fs::metadata(&path).unwrap().len(), LONGEST + 1);
     }
 
     #[test]

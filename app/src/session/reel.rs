@@ -1,25 +1,69 @@
 //! The observers of a ride at the times of a film's pictures.
 
-use crate::command::WorldOptions;
 use crate::error::Error;
 use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::gaps::ShownTimes;
-use crate::session::start::recorded;
+use crate::session::outside_look::OutsideLook;
+use crate::session::start::{PRESENTATION, recorded};
+use command::WorldOptions;
 use input::recording::RecordingError;
-use input::{Nanos, SECOND};
+use input::{Action, Nanos, SECOND};
+use interface::Caption;
+use presentation::Presentation;
+use render::display::Development;
 use ride::{ReplayError, Replayed, RideFrame};
-use scene::Scene;
+use scene::{Scene, Start};
 use std::path::Path;
-use view::Gaze;
+use std::sync::Arc;
+use view::{Effects, Gaze, OutsideView};
 
-/// Observer of one picture, and its time by the observer's own clock.
+/// Pictures per second of a film of a ride.
+pub const FRAMES_PER_SECOND: u32 = 30;
+
+/// How a moment is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// Effects of relativity.
+    pub effects: Effects,
+    /// Vertical field of view, degrees.
+    pub fov_deg: f64,
+    /// Development of radiance into the picture.
+    pub development: Development,
+    /// Camera outside of the eye.
+    pub outside: Option<OutsideView>,
+}
+
+/// Observer of one picture, its time by the observer's own clock, and how it is shown.
+#[derive(Clone, Debug)]
 pub struct Moment {
     /// Observer and direction of view.
     pub gaze: Gaze,
     /// Proper time of the observer, seconds.
     pub own_s: f64,
+    /// How it is shown.
+    pub look: Look,
+    /// What is written over it.
+    pub told: Option<Arc<Told>>,
+}
+
+/// What a film writes over its pictures.
+#[derive(Clone, Debug)]
+pub struct Told {
+    /// Frame of the ride, for the instruments.
+    pub frame: RideFrame,
+    /// Instruments that are shown, and the language.
+    pub presentation: Presentation,
+    /// Caption of a tour.
+    pub caption: Option<Caption>,
+}
+
+impl Look {
+    /// Look of a presentation, with its camera outside of the eye.
+    pub fn of(shown: &Presentation, outside: Option<OutsideView>) -> Self {
+        let Presentation { effects, fov_deg, development, .. } = *shown;
+        Self { effects, fov_deg, development, outside }
+    }
 }
 
 /// Recorded ride that was ridden again.
@@ -34,20 +78,25 @@ pub struct Ridden {
 
 /// Rides a recorded ride again, for pictures at the rate of a film.
 ///
-/// A recording that is damaged or differs is followed as far as possible, with a line on standard error.
+/// The ride is shown as its rider saw it, or by `shown` if the pictures are to look otherwise. A recording that is
+/// damaged or differs is followed as far as possible, with a line on standard error.
 ///
 /// # Errors
 /// A recording or a scene that cannot be read at all.
 pub fn reel(
     recording: &Path,
     options: &WorldOptions,
-    frames_per_second: f64,
-    seconds: Option<f64>,
+    (frames_per_second, seconds): (f64, Option<f64>),
+    shown: impl FnOnce(&Start) -> (Presentation, bool),
 ) -> Result<Ridden, Error> {
     let (scene, mut replay) = recorded(recording, options)?;
+    let (shown, is_given) = shown(&scene.start);
+    let of_rider = replay.header_setting(PRESENTATION).filter(|_| !is_given);
+    let shown = of_rider.map_or(shown, |json| shown.with_json(json));
     let speed_of_light = replay.simulation().setup().light_speed.speed_of_light_m_s();
     let spinner = progress::spinner(format!("riding {} again", recording.display()));
-    let mut reel = Reel::new(frames_per_second, seconds.unwrap_or(f64::INFINITY));
+    let mut reel = Reel::new(frames_per_second, seconds.unwrap_or(f64::INFINITY), shown);
+    reel.follows = !is_given;
     let mut differed = false;
     loop {
         match replay.next_frame() {
@@ -90,13 +139,28 @@ pub struct Reel {
     times: ShownTimes,
     frames_per_second: f64,
     end: Nanos,
+    /// How the ride is shown at present.
+    shown: Presentation,
+    outside: OutsideLook,
+    /// True if the rider's actions change it.
+    follows: bool,
 }
 
 impl Reel {
-    /// Reel for a film of `seconds` at `frames_per_second`.
-    pub fn new(frames_per_second: f64, seconds: f64) -> Self {
+    /// Reel for a film of `seconds` at `frames_per_second` that begins as `shown`.
+    pub fn new(frames_per_second: f64, seconds: f64, shown: Presentation) -> Self {
         let end = (seconds * SECOND as f64) as Nanos;
-        Self { moments: Vec::new(), count: 0, last: None, times: ShownTimes::default(), frames_per_second, end }
+        Self {
+            moments: Vec::new(),
+            count: 0,
+            last: None,
+            times: ShownTimes::default(),
+            frames_per_second,
+            end,
+            shown,
+            outside: OutsideLook::default(),
+            follows: true,
+        }
     }
 
     /// Time at which the next picture is due.
@@ -106,10 +170,24 @@ impl Reel {
 
     /// Takes a frame; pictures that were due before it show the frame before. Returns false once the film is full.
     pub fn add(&mut self, frame: &RideFrame) -> bool {
-        let newest = Moment { gaze: frame.gaze, own_s: frame.vehicle.odometer().own_s };
+        self.add_told(frame, |_| None)
+    }
+
+    /// Takes a frame, with what is written over it. Returns false once the film is full.
+    pub fn add_told(&mut self, frame: &RideFrame, told: impl FnOnce(&Presentation) -> Option<Told>) -> bool {
+        for action in frame.controls.actions.iter().filter(|action| self.follows && Presentation::repeats(action)) {
+            match action {
+                Action::Orbit { turn_rad, closer } => self.outside.orbit(*turn_rad, *closer),
+                action => drop(self.shown.act(action)),
+            }
+        }
+        let (gaze, outside) = self.outside.follow(&frame.gaze, &self.shown);
+        let own_s = frame.vehicle.odometer().own_s;
+        let newest =
+            Moment { gaze, own_s, look: Look::of(&self.shown, outside), told: told(&self.shown).map(Arc::new) };
         let at = self.times.shown(frame.record.at);
-        self.put(self.last.unwrap_or(newest), |due, end| due < at.min(end));
-        self.put(newest, |due, end| due == at && due < end);
+        self.put(self.last.clone().unwrap_or_else(|| newest.clone()), |due, end| due < at.min(end));
+        self.put(newest.clone(), |due, end| due == at && due < end);
         self.last = Some(newest);
         self.due() < self.end
     }
@@ -132,12 +210,12 @@ impl Reel {
 
     /// Moment of the last picture.
     pub fn last(&self) -> Option<Moment> {
-        self.moments.last().map(|(moment, _)| *moment)
+        self.moments.last().map(|(moment, _)| moment.clone())
     }
 
     /// Moments of all pictures, one after the other.
     pub fn pictures(self) -> impl Iterator<Item = Moment> {
-        self.moments.into_iter().flat_map(|(moment, pictures)| (0..pictures).map(move |_| moment))
+        self.moments.into_iter().flat_map(|(moment, pictures)| std::iter::repeat_n(moment, pictures as usize))
     }
 
     /// Moments of `count` pictures, evenly spread, each from the middle of its part; of all pictures if there are
@@ -145,14 +223,14 @@ impl Reel {
     pub fn evenly(&self, count: u32) -> impl Iterator<Item = Moment> {
         let count = u64::from(count).min(self.count);
         let mut moments = self.moments.iter();
-        let (mut moment, mut end) = (None, 0);
+        let (mut moment, mut end): (Option<&Moment>, u128) = (None, 0);
         (0..count).filter_map(move |number| {
             let place = u128::from(2 * number + 1) * u128::from(self.count) / u128::from(2 * count);
             while end <= place {
                 let (next, pictures) = moments.next()?;
-                (moment, end) = (Some(*next), end + u128::from(*pictures));
+                (moment, end) = (Some(next), end + u128::from(*pictures));
             }
-            moment
+            moment.cloned()
         })
     }
 }
@@ -182,7 +260,7 @@ mod tests {
         };
         let lattice = built_in::lattice::Lattice::default().build();
         let mut ride = Simulation::new(setup, Arc::new(Collision::new(&lattice).unwrap())).unwrap();
-        let mut reel = Reel::new(frames_per_second, seconds);
+        let mut reel = Reel::new(frames_per_second, seconds, Presentation::default());
         for at in times {
             let mut frame = ride.frame(*at, &[]);
             // The place tells the frame.

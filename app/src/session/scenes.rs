@@ -1,10 +1,10 @@
 //! Loading of the requested scene: built in, or from a file.
 
-use crate::command::{SceneChoice, WorldOptions};
 use crate::output::progress::{self, LateBar};
 use crate::output::say::tell;
 use built_in::lattice::Lattice;
 use built_in::{dice, laboratory, spectra, town, train};
+use command::{SceneChoice, WorldOptions};
 use picture_cache::PictureCache;
 use scene::{Scene, TooFast, ViewCamera};
 use scene_files::gltf::{LoadStage, ReadRules};

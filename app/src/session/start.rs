@@ -1,11 +1,11 @@
 //! The beginning of a ride: its scene, its setup, its devices, its log; or a recorded ride.
 
-use crate::command::{RideOptions, SceneChoice, VehicleName, WorldOptions};
 use crate::error::Error;
 use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::live::Live;
 use crate::session::scenes::{self, World};
+use command::{RideOptions, SceneChoice, VehicleName, WorldOptions};
 use directories::ProjectDirs;
 use glam::DVec3;
 use hardware::{SetUp, head_config, usual_display};

@@ -1,45 +1,52 @@
 //! Tour in a live ride: its rider's samples, the changes of what is shown, and its captions.
 
-use input::{Action, Nanos, Sample};
+use input::{Action, Nanos, Sample, SampleSource, VehicleKind};
 use interface::{Caption, CaptionQuestion, ChosenAnswer};
-use ride::Vehicle;
-use tours::{TourPlayer, TourQuestion, TourShown};
+use ride::Simulation;
+use tours::{TourChange, TourPlayer, TourQuestion};
 use words::Language;
 
 /// Tour that is being played.
 pub struct TourRide {
     player: TourPlayer,
-    shown: TourShown,
 }
 
 impl TourRide {
     /// Tour from its beginning.
     pub fn new(player: TourPlayer) -> Self {
-        Self { player, shown: TourShown::default() }
+        Self { player }
     }
 
     /// Samples of the tour up to the time `now`, in the order of their times.
-    pub fn samples(&mut self, now: Nanos, vehicle: &Vehicle) -> Vec<Sample> {
-        let step = self.player.step(now, vehicle);
+    pub fn samples(&mut self, now: Nanos, ride: &Simulation) -> Vec<Sample> {
+        let step = self.player.step(now, ride);
         let mut samples = step.samples;
-        for change in step.changes {
-            let actions = change.actions(&self.shown);
-            samples.extend(actions.iter().map(|action| Sample::action(now, action)));
-            self.shown.take(&change);
-        }
+        let actions = step.changes.iter().flat_map(TourChange::actions);
+        samples.extend(actions.map(|action| Sample::action(now, &action)));
         samples
     }
 
-    /// Carries out an action that concerns the tour. True if it was one.
-    pub fn act(&mut self, action: &Action) -> bool {
+    /// True if this source of samples is the tour's own rider as long as the tour lasts.
+    pub fn replaces(&self, source: SampleSource) -> bool {
+        let rides = self.player.plan().vehicle == VehicleKind::Bicycle;
+        rides && !self.player.is_over() && matches!(source, SampleSource::Bicycle | SampleSource::Trainer)
+    }
+
+    /// Carries out an action that concerns the tour.
+    pub fn act(&mut self, action: &Action) {
         match action {
-            Action::Choose if self.player.is_over() => return false,
-            Action::Choose if self.player.is_waiting() => self.player.go_on(),
-            Action::Choose => self.player.stop(),
+            Action::GoOn if self.player.is_waiting() => self.player.go_on(),
+            Action::GoOn => self.player.stop(),
             Action::Answer(number) => self.player.answer(usize::from(*number)),
-            _ => return false,
+            _ => {}
         }
-        true
+    }
+
+    /// Right answer to the question that is open; `None` without one.
+    pub fn right_answer(&self) -> Option<Action> {
+        let question = self.player.question().filter(|_| self.player.answered().is_none())?;
+        let number = question.answers.iter().position(|answer| answer.right)?;
+        Some(Action::Answer(u8::try_from(number).ok()?))
     }
 
     /// Caption at present; `None` once the tour is over.

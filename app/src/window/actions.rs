@@ -4,6 +4,7 @@ use super::open::Open;
 use super::photo;
 use crate::canvas::Canvas;
 use crate::session::preferences::Preferences;
+use cabin::RoomInterface;
 use egui::Key;
 use input::{Action, FocusStep, Sample, Switch};
 use words::Phrase;
@@ -31,13 +32,8 @@ impl Open {
 
     fn perform(&mut self, actions: Vec<Action>) {
         for action in actions {
-            if !self.presentation.menu && self.ride.live.act_on_tour(&action) {
-                continue;
-            }
             match action {
-                Action::Answer(_) => {
-                    self.ride.live.act_on_tour(&action);
-                }
+                Action::GoOn | Action::Answer(_) => self.ride.live.act_on_tour(&action),
                 Action::ToggleRecording => self.ride.live.toggle_recording(),
                 Action::Recentre => {
                     let told = self.ride.live.straightened();
@@ -64,13 +60,16 @@ impl Open {
                     FocusStep::Up => Key::ArrowUp,
                     FocusStep::Down => Key::ArrowDown,
                 }),
+                // A pointer on a sheet has chosen there already, and the panels of a window see its enter key.
+                Action::Choose if self.points_at_sheet() => {}
                 Action::Choose if self.presentation.menu => {
-                    // A wand chooses where it points, and the panels of a window see its enter key.
-                    let points = self.ride.frame.as_ref().is_some_and(|frame| frame.controls.wand.is_some());
-                    if !std::mem::take(&mut self.entered) && !points {
+                    if !self.entered {
                         self.menu_keys.push(Key::Enter);
                     }
                 }
+                Action::Choose => self.ride.live.act_on_tour(&Action::GoOn),
+                Action::Orbit { turn_rad, closer } => self.ride.outside.orbit(turn_rad, closer),
+                Action::Scene(_) | Action::Tour(_) => self.go_to(&action),
                 Action::ToggleFullScreen => self.fill_monitors(),
                 Action::ToggleCalibration => self.calibrate(),
                 Action::Leave => self.leaves = true,
@@ -89,10 +88,16 @@ impl Open {
                 }
             }
         }
+        self.entered = false;
     }
 }
 
 impl Open {
+    /// True if a pointer is on a sheet of the room.
+    fn points_at_sheet(&self) -> bool {
+        self.room_interface.as_ref().is_some_and(RoomInterface::is_pointed_at)
+    }
+
     /// Keeps the language that the rider has chosen for the rides to come.
     fn keep_language(&mut self) {
         if let (false, Err(error)) = (self.kiosk, Preferences::save_language(self.presentation.language)) {
@@ -112,6 +117,7 @@ fn is_for_visitors(action: &Action) -> bool {
             | Action::ToggleFullScreen
             | Action::ToggleCalibration
             | Action::Scene(_)
+            | Action::Tour(_)
             | Action::Leave
     )
 }

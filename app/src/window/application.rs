@@ -1,19 +1,16 @@
 //! The life of the windows, from opening to closing.
 
-use super::open::{Open, WaitingRide};
-use crate::command::RideOptions;
+use super::open::Open;
 use crate::error::Error;
 use crate::output::say::tell;
 use crate::session::interrupt::interruption;
 use crate::session::live::Live;
-use crate::session::start::RideRoom;
-use presentation::Presentation;
-use scene::Scene;
-use std::cell::Cell;
+use crate::session::scenes;
+use crate::session::waiting::WaitingRide;
 use std::panic::AssertUnwindSafe;
 use std::path::Path;
-use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use winit::application::ApplicationHandler;
 use winit::error::EventLoopError;
@@ -25,17 +22,14 @@ use winit::window::WindowId;
 ///
 /// # Errors
 /// A missing graphical session or graphics device, or a fault while riding.
-pub fn run(options: &RideOptions, waiting: WaitingRide) -> Result<(), Error> {
+pub fn run(waiting: WaitingRide) -> Result<(), Error> {
     let events = EventLoop::new().map_err(|error| Error::Window(error.to_string()))?;
     events.set_control_flow(ControlFlow::Wait);
-    // What a lost graphics device takes with it, for a ride that goes on nevertheless.
-    let spare = options.kiosk.kiosk.then(|| (waiting.scene.clone(), waiting.room.clone(), waiting.presentation));
-    let waiting = Some(waiting);
-    let stranded = Rc::new(Cell::new(None));
-    let mut application = Application { options: options.clone(), waiting, open: None, spare, stranded, failed: None };
+    let stranded = Stranded::default();
+    let mut application = Application { waiting: Some(waiting), open: None, stranded, failed: None };
     let ended = outlived(|| events.run_app(&mut application));
     // Whatever has ended the windows, the recording is completed.
-    let live = application.open.map(close).or_else(|| application.stranded.take());
+    let live = application.open.map(close).or_else(|| taken(&application.stranded));
     let finished = live.map_or(Ok(()), |mut live| Ok(live.finish()?));
     ended?;
     application.failed.map_or(finished, Err)
@@ -73,22 +67,26 @@ fn close(open: Open) -> Live {
     open.ride.live
 }
 
+/// Ride whose windows are not open again yet.
+type Stranded = Arc<Mutex<Option<Live>>>;
+
+/// Ride that was stranded, if there is one.
+fn taken(stranded: &Stranded) -> Option<Live> {
+    stranded.lock().unwrap_or_else(PoisonError::into_inner).take()
+}
+
 /// State that winit calls.
 struct Application {
-    options: RideOptions,
     waiting: Option<WaitingRide>,
     open: Option<Open>,
-    /// Scene and room of a kiosk, whose windows are opened again after the loss of a graphics device.
-    spare: Option<(Scene, RideRoom, Presentation)>,
-    /// Ride whose windows are not open again yet.
-    stranded: Rc<Cell<Option<Live>>>,
+    stranded: Stranded,
     failed: Option<Error>,
 }
 
 impl ApplicationHandler for Application {
     fn resumed(&mut self, events: &ActiveEventLoop) {
         if let Some(waiting) = self.waiting.take() {
-            match Open::new(events, &self.options, waiting) {
+            match Open::new(events, waiting) {
                 Ok(open) => {
                     open.windows[0].window.request_redraw();
                     self.open = Some(open);
@@ -101,28 +99,41 @@ impl ApplicationHandler for Application {
     fn window_event(&mut self, events: &ActiveEventLoop, window: WindowId, event: WindowEvent) {
         let Some(open) = &mut self.open else { return };
         match open.event(events, window, event) {
+            Ok(()) if open.has_next() => self.show_next(events),
             Ok(()) => {}
-            Err(error @ Error::Gpu(_)) if self.spare.is_some() => self.reopen(events, error),
+            Err(error @ Error::Gpu(_)) if open.kiosk => self.reopen(events, error),
             Err(error) => self.fail(events, error),
         }
     }
 }
 
 impl Application {
+    /// Shows in the windows what was made ready for them.
+    fn show_next(&mut self, events: &ActiveEventLoop) {
+        match self.open.take().map(Open::with_next) {
+            Some(Ok(open)) => self.open = Some(open),
+            Some(Err(error)) => self.fail(events, error),
+            None => {}
+        }
+    }
+
     /// Opens the windows of a kiosk again after the loss of the graphics device. The ride goes on meanwhile.
     fn reopen(&mut self, events: &ActiveEventLoop, error: Error) {
-        let (Some((scene, room, presentation)), Some(open)) = (&self.spare, self.open.take()) else { return };
+        let Some(open) = self.open.take() else { return };
         tell(format_args!("{error}; the windows are opened again"));
+        let (options, room, presentation) = (open.options.clone(), open.room.clone(), open.fresh);
         let mut live = close(open);
         live.fault(&error.to_string());
-        self.stranded.set(Some(live));
+        *self.stranded.lock().unwrap_or_else(PoisonError::into_inner) = Some(live);
         let stop = interruption();
         for _ in 0..ATTEMPTS {
-            let stranded = Rc::clone(&self.stranded);
-            let begin = Box::new(move || stranded.take().ok_or(Error::WindowLost));
-            let (scene, room, presentation) = (scene.clone(), room.clone(), *presentation);
-            let waiting = WaitingRide { scene, room, presentation, begin };
-            if let Ok(open) = Open::new(events, &self.options, waiting) {
+            let stranded = Arc::clone(&self.stranded);
+            let begin = Box::new(move || taken(&stranded).ok_or(Error::WindowLost));
+            let (options, room) = (options.clone(), room.clone());
+            let opened = scenes::load(&options.world).map_err(Error::from).and_then(|world| {
+                Open::new(events, WaitingRide { options, scene: world.scene, room, presentation, begin })
+            });
+            if let Ok(open) = opened {
                 open.windows[0].window.request_redraw();
                 self.open = Some(open);
                 return;

@@ -20,7 +20,7 @@ impl Open {
                 .tell("corners can be moved only in the windows of a room: start with --display, without --preview");
             return;
         };
-        let begun = || Calibrating::new(self.display_name.clone(), &walls.display);
+        let begun = || Calibrating::new(self.room.display_name.clone(), &walls.display);
         let calibrating = self.calibrating.get_or_insert_with(begun);
         calibrating.active = true;
         walls.show_grids(&self.gpu, &calibrating.calibration);

@@ -5,7 +5,7 @@ use super::window_surface::WindowSurface;
 use crate::canvas::Canvas;
 use crate::error::Error;
 use glam::DVec2;
-use input::{MouseButton, MouseEvent, Sample, SampleSource};
+use input::{Action, MouseButton, MouseEvent, Sample, SampleSource};
 use winit::dpi::PhysicalSize;
 use winit::event::{ElementState, MouseScrollDelta, WindowEvent};
 use winit::event_loop::ActiveEventLoop;
@@ -128,17 +128,21 @@ impl Open {
         const TURN_RAD: f64 = 0.005;
         /// Factor of the distance for each notch of the wheel.
         const CLOSER: f64 = 1.1;
-        if self.room_interface.is_some() && self.presentation.menu {
+        let releases = matches!(event, MouseEvent::Button { pressed: false, .. });
+        if self.room_interface.is_some() && self.presentation.menu && !releases {
             // The mouse points in the menu.
-        } else if let Some(outside) = self.ride.outside.as_mut().filter(|_| self.presentation.outside) {
-            match event {
-                MouseEvent::Button { button: MouseButton::Left, pressed } => self.dragged = pressed,
-                MouseEvent::Moved { right, down } if self.dragged => {
-                    outside.orbit(-TURN_RAD * f64::from(right), TURN_RAD * f64::from(down), 1.0);
+        } else if self.presentation.outside && !releases {
+            let turn_rad = |right: f32, down: f32| [-TURN_RAD * f64::from(right), TURN_RAD * f64::from(down)];
+            let (turn_rad, closer) = match event {
+                MouseEvent::Button { button: MouseButton::Left, .. } => {
+                    self.dragged = true;
+                    return;
                 }
-                MouseEvent::Wheel(notches) => outside.orbit(0.0, 0.0, CLOSER.powf(f64::from(notches))),
-                _ => {}
-            }
+                MouseEvent::Moved { right, down } if self.dragged => (turn_rad(right, down), 1.0),
+                MouseEvent::Wheel(notches) => ([0.0; 2], CLOSER.powf(f64::from(notches))),
+                _ => return,
+            };
+            self.ride.live.say(|at| Sample::action(at, &Action::Orbit { turn_rad, closer }));
         } else if self.mouse_moves_head {
             self.ride.live.say(|at| Sample::mouse(at, event));
         } else if self.mouse_looks {

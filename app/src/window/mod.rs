@@ -12,6 +12,7 @@ mod application;
 mod calibrate;
 mod calibrating;
 mod events;
+mod next;
 mod open;
 mod operator;
 mod photo;
@@ -23,4 +24,3 @@ mod surface_interface;
 mod window_surface;
 
 pub use application::run;
-pub use open::WaitingRide;

@@ -7,15 +7,16 @@ use super::server_loss;
 use super::surface_interface::SurfaceInterface;
 use super::window_surface::WindowSurface;
 use crate::canvas::Canvas;
-use crate::command::{RideOptions, map_scale_of_windows};
 use crate::error::Error;
 use crate::frame::RideInProgress;
 use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::interrupt::interruption;
-use crate::session::live::Live;
+use crate::session::making::Making;
 use crate::session::start::RideRoom;
+use crate::session::waiting::WaitingRide;
 use cabin::{Guide, RoomInterface};
+use command::{RideOptions, map_scale_of_windows};
 use glam::DVec2;
 use hardware::{DESK, WINDOW};
 use interface::MenuPage;
@@ -25,27 +26,14 @@ use render::picture::largest_side;
 use render::target::{Format, texture};
 use render::{Gpu, GpuError, SceneRenderer, descriptor};
 use room::WindowPlace;
-use scene::Scene;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use view::Occasion;
+use tours::TourPlan;
+use view::{Dial, Occasion};
 use walls::{FlatPicture, Quality, Walls, WindowsInStep};
 use winit::dpi::{PhysicalPosition, PhysicalSize};
 use winit::event_loop::ActiveEventLoop;
 use winit::window::Window;
-
-/// Ride for which the windows are opened.
-pub struct WaitingRide {
-    /// Scene of the ride.
-    pub scene: Scene,
-    /// Room in which the ride is shown.
-    pub room: RideRoom,
-    /// How the ride is shown at its beginning.
-    pub presentation: Presentation,
-    /// Function that begins the ride. It is called when everything else is ready, since the ride's clock starts with
-    /// it.
-    pub begin: Box<dyn FnOnce() -> Result<Live, Error>>,
-}
 
 /// Open windows, and everything that draws in them.
 pub struct Open {
@@ -74,6 +62,8 @@ pub struct Open {
     pub(super) menu_keys: Vec<egui::Key>,
     /// True after a press of the enter key, which the panels take by themselves.
     pub(super) entered: bool,
+    /// Tours of the program, by their names.
+    pub(super) tours: Vec<(&'static str, TourPlan)>,
     /// Page of the menu.
     pub(super) page: MenuPage,
     /// Format in which the renderer draws.
@@ -90,8 +80,15 @@ pub struct Open {
     pub(super) dragged: bool,
     /// True while a Shift key is down.
     pub(super) shift: bool,
-    /// Name of the display on the command line.
-    pub(super) display_name: Option<String>,
+    /// Options of the present ride.
+    pub(super) options: RideOptions,
+    /// Room of the ride.
+    pub(super) room: RideRoom,
+    /// Way of drawing that was asked for, and the one that draws.
+    pub(super) dial: Dial,
+    pub(super) drawn_by: Dial,
+    /// What is made ready to be shown next.
+    pub(super) making: Option<Making>,
     /// Corners of the channels, once they have been moved.
     pub(super) calibrating: Option<Calibrating>,
     /// Place of the mouse, pixels.
@@ -106,17 +103,17 @@ impl Open {
     ///
     /// # Errors
     /// A missing window or graphics device, or a ride that cannot begin.
-    pub fn new(events: &ActiveEventLoop, options: &RideOptions, waiting: WaitingRide) -> Result<Self, Error> {
-        let WaitingRide { scene, room, presentation, begin } = waiting;
+    pub fn new(events: &ActiveEventLoop, waiting: WaitingRide) -> Result<Self, Error> {
+        let WaitingRide { options, scene, room, presentation, begin } = waiting;
         let mouse_moves_head = options.replay.is_none() && room.mouse_moves_head();
         let turns = room.display.as_ref().is_none_or(|display| display.viewer.turns_pictures && !options.preview);
         let mouse_looks = options.replay.is_none() && room.head.is_none() && turns;
         let kiosk = options.kiosk.kiosk;
-        let mut display = room.display;
+        let mut display = room.display.clone();
         if let Some(display) = display.as_mut().filter(|_| kiosk) {
             display.fill_monitors();
         }
-        let title = format!("Rapidity: {}", scene.name);
+        let title = title(&scene.name);
         let attributes = match &display {
             Some(display) if !options.preview => {
                 display.notices.iter().for_each(|notice| tell(format_args!("{}: {notice}", display.name)));
@@ -163,12 +160,12 @@ impl Open {
         let guide = Guide::new(&scene);
         let spinner = progress::cutting(dial);
         let start = scene.start;
-        let Choice { scene, dial, because } = Choice::of(scene, dial, Occasion::Ride)?;
+        let choice = Choice::of(scene, dial, Occasion::Ride)?;
         spinner.finish_and_clear();
-        tell(format_args!("{because}, on {}", gpu.description()));
+        tell(format_args!("{}, on {}", choice.because, gpu.description()));
+        let drawn_by = choice.dial;
         let spinner = progress::spinner("uploading");
-        let mut renderer = SceneRenderer::new(&gpu, scene, format, options.picture.background, dial, Occasion::Ride)?;
-        gpu.wait()?;
+        let mut renderer = upload(&gpu, choice, &options, format)?;
         spinner.finish_and_clear();
         let interface = SurfaceInterface::new(&gpu, &surfaces[0].window, screen_format);
         let mut canvas = match display {
@@ -184,7 +181,7 @@ impl Open {
                 }
             }
             None => {
-                let map_scale = dial.map_scale.unwrap_or(map_scale_of_windows(gpu.is_software()));
+                let map_scale = map_scale(&gpu, drawn_by);
                 let size = surfaces[0].size();
                 Canvas::Picture(Box::new(FlatPicture::new(&gpu, size, format, screen_format, map_scale)))
             }
@@ -192,17 +189,14 @@ impl Open {
         let fresh = presentation;
         let room_interface = match &canvas {
             Canvas::Room(walls) => Some(&walls.display),
-            Canvas::Preview(room) => Some(&room.walls.display),
-            Canvas::Picture(_) => None,
+            // The onlooker of a room has one flat window.
+            Canvas::Preview(_) | Canvas::Picture(_) => None,
         };
         let room_interface = room_interface.filter(|display| display.channels.len() > 1);
         let room_interface = room_interface.map(|display| RoomInterface::new(&gpu, display));
-        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
-        let screen = |surface: &WindowSurface| texture(&gpu, "unseen", surface.size(), screen_format, 1, usage);
-        let screens: Vec<_> = surfaces.iter().map(screen).collect();
         let spinner = progress::spinner("drawing the first picture");
         let shown = (fresh.effects, fresh.fov_deg, &fresh.development);
-        let took = canvas.warm_up(&gpu, &mut renderer, &start, shown, &screens)?;
+        let took = canvas.warm_up(&gpu, &mut renderer, &start, shown, &unseen(&gpu, &surfaces))?;
         spinner.finish_and_clear();
         let mut ride = RideInProgress::new(renderer, begin()?, options.frame_rate.governor());
         ride.begin(&mut canvas, took);
@@ -218,6 +212,7 @@ impl Open {
             mouse_pressed: false,
             menu_keys: Vec::new(),
             entered: false,
+            tours: tours::built_in_plans(),
             page: MenuPage::default(),
             format,
             kiosk,
@@ -226,7 +221,11 @@ impl Open {
             mouse_looks,
             dragged: false,
             shift: false,
-            display_name: room.display_name,
+            options,
+            room,
+            dial,
+            drawn_by,
+            making: None,
             calibrating: None,
             cursor: None,
             ride,
@@ -237,4 +236,33 @@ impl Open {
             interface,
         })
     }
+}
+
+/// Title of the windows of a ride in a scene of this name.
+pub(super) fn title(scene: &str) -> String {
+    format!("Rapidity: {scene}")
+}
+
+/// Texels of a map for each pixel of a flat picture.
+pub(super) fn map_scale(gpu: &Gpu, dial: Dial) -> f64 {
+    dial.map_scale.unwrap_or(map_scale_of_windows(gpu.is_software()))
+}
+
+/// Renderer of a chosen scene, on the device.
+///
+/// # Errors
+/// A scene whose origin is not finite, or a lost device.
+pub(super) fn upload(gpu: &Gpu, choice: Choice, options: &RideOptions, format: Format) -> Result<SceneRenderer, Error> {
+    let Choice { scene, dial, .. } = choice;
+    let renderer = SceneRenderer::new(gpu, scene, format, options.picture.background, dial, Occasion::Ride)?;
+    gpu.wait()?;
+    Ok(renderer)
+}
+
+/// Pictures as large as those of the windows, which nobody sees.
+pub(super) fn unseen(gpu: &Gpu, surfaces: &[WindowSurface]) -> Vec<wgpu::TextureView> {
+    let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
+    let screen =
+        |surface: &WindowSurface| texture(gpu, "unseen", surface.size(), surface.configuration.format, 1, usage);
+    surfaces.iter().map(screen).collect()
 }

@@ -1,9 +1,10 @@
 //! Readings of a ride for the head-up display and the panel.
 
+use super::open::Open;
+use crate::canvas::Canvas;
 use crate::frame::RideInProgress;
-use input::Place;
 use interface::{MenuRide, Readings};
-use render::Gpu;
+use tours::TourPlan;
 use words::{Language, Phrase};
 
 /// Readings for the head-up display.
@@ -47,31 +48,35 @@ fn accuracy(ride: &RideInProgress) -> String {
     if ride.share < 0.995 { format!("{error} · drawn at {:.0} %", 100.0 * ride.share) } else { error }
 }
 
-/// State of the ride that the menu shows. `in_step`: sentence on the windows, if there are several.
-pub fn menu(
-    ride: &RideInProgress,
-    gpu: &Gpu,
-    places: Vec<(String, Place)>,
-    (is_flat, in_step): (bool, Option<String>),
-) -> MenuRide {
-    let vehicle = ride.frame.as_ref().map(|frame| &frame.vehicle);
-    let drawing = format!(
-        "{} triangles by the {} renderer on {}",
-        ride.renderer.triangle_count(),
-        ride.renderer.name(),
-        gpu.description()
-    );
-    MenuRide {
-        vehicle: vehicle.map_or_else(Default::default, |vehicle| vehicle.kind()),
-        time_scale: ride.frame.as_ref().map_or(1.0, |frame| frame.time_scale),
-        speed_of_light: vehicle.map_or(1.0, |vehicle| vehicle.light_speed().speed_of_light_m_s()),
-        paused: ride.frame.as_ref().is_some_and(|frame| frame.paused),
-        recording: ride.live.is_recording(),
-        tracking: ride.live.tracking(),
-        places,
-        devices: ride.live.devices(),
-        drawing: [drawing].into_iter().chain(in_step).collect(),
-        overlaps: ride.overlaps,
-        is_flat,
+impl Open {
+    /// State of the ride that the menu shows.
+    pub(super) fn menu(&self) -> MenuRide {
+        let (ride, language) = (&self.ride, self.presentation.language);
+        let vehicle = ride.frame.as_ref().map(|frame| &frame.vehicle);
+        let drawing = format!(
+            "{} triangles by the {} renderer on {}",
+            ride.renderer.triangle_count(),
+            ride.renderer.name(),
+            self.gpu.description()
+        );
+        let title = |plan: &TourPlan| plan.title.in_language(language.code()).to_owned();
+        MenuRide {
+            vehicle: vehicle.map_or_else(Default::default, |vehicle| vehicle.kind()),
+            time_scale: ride.frame.as_ref().map_or(1.0, |frame| frame.time_scale),
+            speed_of_light: vehicle.map_or(1.0, |vehicle| vehicle.light_speed().speed_of_light_m_s()),
+            paused: ride.frame.as_ref().is_some_and(|frame| frame.paused),
+            recording: ride.live.is_recording(),
+            is_recorded: ride.live.is_recorded(),
+            tracking: ride.live.tracking(),
+            scene: self.options.world.scene().name(),
+            tours: self.tours.iter().map(|(name, plan)| (title(plan), *name)).collect(),
+            places: self.guide.places(language),
+            dial: self.dial,
+            drawn_by: self.drawn_by.renderer,
+            devices: ride.live.devices(),
+            drawing: [drawing].into_iter().chain(self.in_step.sentence()).collect(),
+            overlaps: ride.overlaps,
+            is_flat: matches!(self.canvas, Canvas::Picture(_)),
+        }
     }
 }

@@ -26,6 +26,7 @@ impl Open {
         if self.stop.load(Ordering::Relaxed) {
             return Ok(false);
         }
+        self.look_ahead();
         let began = Instant::now();
         self.ask_for_textures(began + LONGEST_WAIT)?;
         let Some(screens) = self.in_step.turn() else {
@@ -54,18 +55,14 @@ impl Open {
 
         // Light to the windows, and the interface over the first.
         let readings = readings::readings(&self.ride, shown.language, self.kiosk);
-        let is_flat = matches!(self.canvas, Canvas::Picture(_));
         let has_operator = self.operator.is_some();
-        let menu = (shown.menu || has_operator).then(|| {
-            let places = self.guide.places(shown.language);
-            readings::menu(&self.ride, &self.gpu, places, (is_flat, self.in_step.sentence()))
-        });
+        let menu = (shown.menu || has_operator).then(|| self.menu());
         let [width, height] = self.windows[0].size().map(f64::from);
         if let Some(frame) = &self.ride.frame {
             self.guide.note(frame, &shown, width / height);
         }
-        let wanting = self.ride.frame.as_ref().filter(|_| shown.miniature);
-        let clocks = wanting.map_or_else(Vec::new, |frame| self.guide.clocks(frame, shown.language));
+        let clocks = |frame| self.guide.wanted_clocks(frame, &shown);
+        let clocks = self.ride.frame.as_ref().map_or_else(Vec::new, clocks);
         let caption = self.ride.live.caption();
         let keys = std::mem::take(&mut self.menu_keys);
         let room = Shown {
@@ -164,7 +161,9 @@ impl Open {
         };
         // The wand of a recorded rider has chosen already.
         let frame = self.ride.frame.as_ref().filter(|_| !self.ride.live.is_recorded());
-        let wand = frame.and_then(|frame| frame.controls.wand.as_deref()).and_then(cabin::of_wand);
+        let wand = frame.and_then(|frame| frame.controls.wand.as_deref());
+        let buttons = self.room.head.as_ref().and_then(|head| head.wand.as_ref()).map(|wand| &wand.actions);
+        let wand = wand.zip(buttons).and_then(|(wand, buttons)| cabin::of_wand(wand, buttons));
         let mouse = || {
             let (window, pixel) = self.pointed?;
             cabin::of_mouse(&walls.display, window, pixel, self.mouse_pressed)

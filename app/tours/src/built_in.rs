@@ -12,6 +12,11 @@ pub const BUILT_IN: [(&str, &str); 4] = [
     ("slow-light", include_str!("tours/slow-light.toml")),
 ];
 
+/// Built-in tours, each with its name.
+pub fn built_in_plans() -> Vec<(&'static str, TourPlan)> {
+    BUILT_IN.iter().filter_map(|(name, text)| Some((*name, parse(name, text).ok()?))).collect()
+}
+
 /// Built-in tour of this name.
 ///
 /// # Errors

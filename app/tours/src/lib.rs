@@ -10,16 +10,14 @@ mod change;
 mod plan;
 mod player;
 mod rider;
-mod subtitles;
 mod tour_error;
 mod tour_file;
 
-pub use built_in::{BUILT_IN, built_in};
-pub use change::{TourChange, TourShown};
+pub use built_in::{BUILT_IN, built_in, built_in_plans};
+pub use change::TourChange;
 pub use plan::{
     StationRide, TourAnswer, TourPanel, TourPlan, TourQuestion, TourRoute, TourStation, TourText, TourView,
 };
 pub use player::{TourPlayer, TourStep};
-pub use subtitles::Subtitles;
 pub use tour_error::{PlayError, TourError};
 pub use tour_file::{LARGEST_BYTES, parse, read};

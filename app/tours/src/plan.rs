@@ -5,7 +5,7 @@ use input::{DeskConfig, VehicleKind};
 use ride::{LightSpeed, Nose, RideStart, Setup, VehicleSettings};
 use scene::Start;
 use std::collections::BTreeMap;
-use view::Effects;
+use view::{Effects, Places};
 
 /// Text in several languages, by their two-letter codes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -29,6 +29,17 @@ pub enum TourView {
     Measured,
     /// Things where they are now in the world's frame.
     Instant,
+}
+
+impl TourView {
+    /// Places that the view shows.
+    pub fn places(self) -> Places {
+        match self {
+            Self::Seen => Places::Seen,
+            Self::Measured => Places::Measured,
+            Self::Instant => Places::Instant,
+        }
+    }
 }
 
 /// Instrument that a station shows beside the picture.

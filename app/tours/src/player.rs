@@ -6,7 +6,7 @@ use crate::rider::Rider;
 use crate::tour_error::PlayError;
 use glam::DVec3;
 use input::{Action, DeskConfig, Nanos, SECOND, Sample};
-use ride::Vehicle;
+use ride::Simulation;
 use std::sync::Arc;
 
 /// Output of the player for one frame.
@@ -39,18 +39,20 @@ pub struct TourPlayer {
     progress: Progress,
     /// True while the visitor has stopped the tour.
     stopped: bool,
-    /// True if the ride is paused by the player.
-    paused: bool,
     /// True if the changes of the present station have been given out.
     announced: bool,
-    /// Time of the tour: the ride's without its pauses.
-    tour_time: Nanos,
-    /// Time of the tour at which the present station began.
-    began: Nanos,
+    /// Own time of the tour, and that of the vehicle at the last step, seconds.
+    own_s: f64,
+    vehicle_s: f64,
+    /// Own times of the tour at which the present station began, and at which the last one ended.
+    began_s: f64,
+    ended_s: f64,
+    /// True while the ride is held by the tour.
+    holds: bool,
+    /// Time of the ride without its pauses, for the rider's samples.
+    running: Nanos,
     /// Time of the ride at the last step.
     now: Option<Nanos>,
-    /// Time of the ride when the tour's was 0, and all pauses since.
-    late: Nanos,
 }
 
 impl TourPlayer {
@@ -66,12 +68,14 @@ impl TourPlayer {
             station: 0,
             progress: Progress::Riding,
             stopped: false,
-            paused: false,
             announced: false,
-            tour_time: 0,
-            began: 0,
+            own_s: 0.0,
+            vehicle_s: f64::INFINITY,
+            began_s: 0.0,
+            ended_s: 0.0,
+            holds: false,
+            running: 0,
             now: None,
-            late: 0,
         })
     }
 
@@ -80,34 +84,40 @@ impl TourPlayer {
         &self.plan
     }
 
-    /// Step to the time `now` of the ride, which never runs backward. `vehicle`: as it is at present.
-    pub fn step(&mut self, now: Nanos, vehicle: &Vehicle) -> TourStep {
+    /// Step to the time `now` of the ride, which never runs backward. `ride`: as it is before its next frame.
+    ///
+    /// Stations are counted in the rider's own time, so that a station is as long however fast the clock runs, whoever
+    /// holds the ride, and however late frames come. Its end within the frame to come is foreseen.
+    pub fn step(&mut self, now: Nanos, ride: &Simulation) -> TourStep {
         let mut step = TourStep::default();
+        let first = self.now.is_none();
         let before = self.now.replace(now).unwrap_or(now);
-        if self.tour_time == 0 && !self.announced {
-            self.late = now;
-        } else if self.runs() && !self.paused {
-            self.tour_time += now.saturating_sub(before);
-        } else {
-            self.late += now.saturating_sub(before);
+        let vehicle_s = ride.vehicle().odometer().own_s;
+        self.own_s += (vehicle_s - std::mem::replace(&mut self.vehicle_s, vehicle_s)).max(0.0);
+        let rate = if ride.is_paused() { 0.0 } else { ride.time_scale() };
+        if self.runs() && !ride.is_paused() && !first {
+            self.running += now - before;
         }
-        if self.runs() {
-            self.pass_stations();
-        }
+        let mut at = before;
         self.announce(&mut step.changes);
+        while self.runs() {
+            let motion = self.plan.stations.get(self.station).map_or(StationRide::Coast, |station| station.ride);
+            step.samples.extend(self.rider.samples(motion, ride.vehicle(), at, [self.running, now]));
+            let Some((end, own_s)) = self.end(before, now, rate) else { break };
+            at = end;
+            self.pass_station(own_s);
+            self.announce(&mut step.changes);
+        }
 
         // Hold the ride while the tour waits.
-        let is_over = self.progress == Progress::Over;
-        let should_pause = !self.runs() && !is_over;
-        if should_pause != self.paused {
-            self.paused = should_pause;
-            step.samples.push(Sample::action(now, &Action::TogglePause));
+        if self.progress == Progress::Over {
+            step.samples.extend(self.rider.end(at));
+        } else if !self.runs() && !ride.is_paused() {
+            step.samples.push(Sample::action(at, &Action::Hold(true)));
+            self.holds = true;
         }
-        if is_over {
-            step.samples.extend(self.rider.end(now));
-        } else if self.runs() {
-            let ride = self.plan.stations.get(self.station).map_or(StationRide::Coast, |station| station.ride);
-            step.samples.extend(self.rider.samples(ride, vehicle, self.tour_time, self.late));
+        if self.runs() && std::mem::take(&mut self.holds) {
+            step.samples.push(Sample::action(now, &Action::Hold(false)));
         }
         step
     }
@@ -117,30 +127,32 @@ impl TourPlayer {
         self.progress == Progress::Riding && !self.stopped
     }
 
-    /// Goes on to the next station where the present one is over.
-    fn pass_stations(&mut self) {
-        let Some(station) = self.plan.stations.get(self.station) else {
-            self.progress = Progress::Over;
-            return;
-        };
-        let length = (station.seconds * SECOND as f64) as Nanos;
-        let arrived = station.until_m.is_some_and(|until_m| self.rider.along_m() >= until_m);
-        if self.tour_time - self.began < length && !arrived {
-            return;
+    /// Time of the ride and own time of the tour at which the present station ends, if that is in the frame from
+    /// `before` to `now`. `rate`: own time per time of the ride.
+    fn end(&self, before: Nanos, now: Nanos, rate: f64) -> Option<(Nanos, f64)> {
+        let Some(station) = self.plan.stations.get(self.station) else { return Some((before, self.own_s)) };
+        if station.until_m.is_some_and(|until_m| self.rider.along_m() >= until_m) {
+            return Some((before, self.own_s));
         }
-        self.progress = match (&station.question, station.pause) {
-            (Some(_), _) => Progress::Asking(None),
-            (None, true) => Progress::Waiting,
-            (None, false) => {
-                self.next_station();
-                return;
-            }
-        };
+        let end_s = self.began_s + station.seconds;
+        let left_s = (end_s - self.own_s).max(0.0);
+        let ahead = left_s / rate * SECOND as f64;
+        (left_s == 0.0 || ahead <= (now - before) as f64).then(|| (before + ahead.max(0.0) as Nanos, end_s))
+    }
+
+    /// Ends the present station, at this own time of the tour.
+    fn pass_station(&mut self, own_s: f64) {
+        self.ended_s = own_s;
+        match self.plan.stations.get(self.station).map(|station| (&station.question, station.pause)) {
+            Some((Some(_), _)) => self.progress = Progress::Asking(None),
+            Some((None, true)) => self.progress = Progress::Waiting,
+            Some((None, false)) | None => self.next_station(),
+        }
     }
 
     fn next_station(&mut self) {
         self.station += 1;
-        self.began = self.tour_time;
+        self.began_s = self.ended_s;
         self.announced = false;
         let is_last = self.station >= self.plan.stations.len();
         self.progress = if is_last { Progress::Over } else { Progress::Riding };
@@ -212,8 +224,8 @@ impl TourPlayer {
         self.station
     }
 
-    /// Time of the tour, without its pauses, seconds.
-    pub fn tour_s(&self) -> f64 {
-        self.tour_time as f64 / SECOND as f64
+    /// Own time of the tour's rider, seconds.
+    pub fn own_s(&self) -> f64 {
+        self.own_s
     }
 }

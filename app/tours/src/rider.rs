@@ -46,22 +46,30 @@ impl Rider {
         self.cyclist.as_ref().map_or(f64::NAN, |cyclist| cyclist.along_m())
     }
 
-    /// Samples for a motion, of the time `until` of the tour, which is `late` earlier than the ride's.
-    pub(crate) fn samples(&mut self, ride: StationRide, vehicle: &Vehicle, until: Nanos, late: Nanos) -> Vec<Sample> {
-        match (ride, &mut self.cyclist) {
+    /// Samples for a motion from the time `at` of the ride on. A cyclist's are those up to `running`, the time of the
+    /// ride without its pauses, which is `now` with them.
+    pub(crate) fn samples(
+        &mut self,
+        motion: StationRide,
+        vehicle: &Vehicle,
+        at: Nanos,
+        [running, now]: [Nanos; 2],
+    ) -> Vec<Sample> {
+        match (motion, &mut self.cyclist) {
             (StationRide::Along { speed_m_s }, Some(cyclist)) => {
                 cyclist.ride_at(speed_m_s, self.gain_m_s2);
-                let mut samples = cyclist.samples(vehicle, until);
-                samples.iter_mut().for_each(|sample| sample.at += late);
+                let mut samples = cyclist.samples(vehicle, running);
+                samples.iter_mut().for_each(|sample| sample.at += now - running);
                 samples
             }
-            (StationRide::Thrust(axes), _) => self.press(axes, until + late),
-            _ => self.press([0; 3], until + late),
+            (StationRide::Thrust(axes), _) => self.press(axes, at),
+            _ => self.press([0; 3], at),
         }
     }
 
-    /// Changes of keys that thrust along these axes.
-    fn press(&mut self, axes: [i8; 3], now: Nanos) -> Vec<Sample> {
+    /// Keys that thrust along these axes, and the release of those before. Keys that are down are pressed again, since
+    /// a window that loses its focus releases all.
+    fn press(&mut self, axes: [i8; 3], at: Nanos) -> Vec<Sample> {
         let wanted: Vec<KeyboardKey> = axes
             .into_iter()
             .zip(THRUST_KEYS)
@@ -71,8 +79,8 @@ impl Rider {
             })
             .collect();
         let released = self.down.iter().filter(|key| !wanted.contains(key)).map(|key| (*key, false));
-        let pressed = wanted.iter().filter(|key| !self.down.contains(key)).map(|key| (*key, true));
-        let samples = released.chain(pressed).map(|(key, down)| Sample::key(now, key, down)).collect();
+        let pressed = wanted.iter().map(|key| (*key, true));
+        let samples = released.chain(pressed).map(|(key, down)| Sample::key(at, key, down)).collect();
         self.down = wanted;
         samples
     }

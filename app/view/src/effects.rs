@@ -26,8 +26,13 @@ impl Places {
         match self {
             Self::Seen => "seen",
             Self::Measured => "measured",
-            Self::Instant => "instant light",
+            Self::Instant => "instant",
         }
+    }
+
+    /// View of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|known| known.name() == name)
     }
 
     /// View of places that follows, the first after the last.

@@ -4,6 +4,7 @@
 
 mod camera;
 mod dial;
+mod dial_limits;
 mod effects;
 mod outside;
 mod sampling;
@@ -12,6 +13,7 @@ mod sides;
 
 pub use camera::{Camera, Field, Tangents};
 pub use dial::{Dial, DialError, Occasion, RendererName, Transform};
+pub use dial_limits::DialFault;
 pub use effects::{Effects, EffectsError, Places};
 pub use outside::{Colouring, OutsideCamera, OutsideError, OutsideView};
 pub use sampling::{PixelSample, sample_offset};

@@ -97,6 +97,11 @@ impl FlatPicture {
         if self.still.is_some() { Drawing::Resting } else { Drawing::Moving }
     }
 
+    /// Changes the texels of a map for each pixel.
+    pub fn set_map_scale(&mut self, map_scale: f64) {
+        self.map_scale = map_scale;
+    }
+
     /// Begins anew, as if nothing had been drawn: the next frame is not at rest.
     pub fn begin_anew(&mut self) {
         (self.still, self.shown) = (None, None);

@@ -112,6 +112,11 @@ impl Walls {
         }
     }
 
+    /// Begins anew, as if nothing had been drawn: the next frame is not at rest.
+    pub fn begin_anew(&mut self) {
+        (self.shown, self.rest, self.rests) = (None, None, false);
+    }
+
     /// Begins the photo-surfaces of an occupant's eyes, beside whatever is drawn meanwhile.
     ///
     /// # Errors

@@ -9,7 +9,7 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::MenuTitle => "Menü",
         Phrase::Vehicle => "Fahrzeug",
         Phrase::Bicycle => "Fahrrad",
-        Phrase::BicyclePurpose => "Auf der Straße treten und mit dem Lenker lenken.",
+        Phrase::BicyclePurpose => "In die Pedale treten und mit dem Lenker lenken.",
         Phrase::Drive => "Auto",
         Phrase::DrivePurpose => "In jede Richtung über den Boden gleiten.",
         Phrase::Fly => "Flug",
@@ -19,7 +19,7 @@ pub fn text(phrase: Phrase) -> &'static str {
             "Wie schnell das Licht in dieser Welt ist. Je langsamer, desto eher sieht man die Relativität."
         }
         Phrase::WalkingPace => "Schritttempo",
-        Phrase::RealLight => "wirklich",
+        Phrase::RealLight => "wie in der Natur",
         Phrase::ClockSpeed => "Gang deiner Uhr",
         Phrase::ClockSpeedPurpose => {
             "Wie viel deiner eigenen Zeit in einer Sekunde vergeht. Unter 1 siehst du alles in Zeitlupe."
@@ -78,7 +78,9 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::PhotoSphere => "Rundum-Foto",
         Phrase::PhotoSpherePurpose => "Speichert ein Bild aller Richtungen, sphere-001.png und so weiter.",
         Phrase::Record => "Aufnehmen",
-        Phrase::RecordPurpose => "Speichert die ganze Fahrt als Datei, ride-001.mcap und so weiter, oder beendet sie.",
+        Phrase::RecordPurpose => {
+            "Speichert die ganze Fahrt als Datei, ride-001.mcap und so weiter, oder schließt die Datei ab."
+        }
         Phrase::Outside => "Von außen",
         Phrase::OutsidePurpose => "Zeigt, was du siehst, als Körper im Raum, von außen. Die Kugel bist du.",
         Phrase::Freeze => "Einfrieren",
@@ -148,11 +150,11 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::GammaRapidity => "γ · Rapidität",
         Phrase::Felt => "gespürt",
         Phrase::Recording => "Aufnahme läuft",
-        Phrase::Paused => "angehalten: P geht weiter",
+        Phrase::Paused => "angehalten: weiter mit P",
         Phrase::HelpAndMenu => "F1 Hilfe · F3 Menü",
         Phrase::HelpKey => "F1 Hilfe",
         Phrase::FramesPerSecond => "{0} Bilder/s",
-        Phrase::Invitation => "Taste drücken oder lostreten: Die Fahrt gehört dir",
+        Phrase::Invitation => "Taste drücken oder losradeln: Die Fahrt gehört dir",
         Phrase::ClockRuns => "deine Uhr läuft × {0}",
         Phrase::PointsLost => "{0} Punkte der Szene haben keinen sichtbaren Ort und werden nicht gezeichnet",
         Phrase::ViewIs => "Ansicht: {0}",
@@ -213,5 +215,43 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::KeyHead => "nächste Nutzung des verfolgten Kopfes",
         Phrase::KeyFullScreen => "ganzer Bildschirm",
         Phrase::KeyLeave => "beenden",
+        Phrase::World => "Welt",
+        Phrase::WorldPurpose => "Szenen, Führungen und Orte.",
+        Phrase::SceneChoice => "Szene",
+        Phrase::SceneTown => "Altstadt",
+        Phrase::SceneTownPurpose => "Straßen, Häuser und Uhren, in denen Licht nur 30 km/h schnell ist.",
+        Phrase::SceneDice => "Würfel",
+        Phrase::SceneDicePurpose => "Würfel am Straßenrand. Was vorbeizieht, sieht gedreht aus, nicht verkürzt.",
+        Phrase::SceneTrain => "Züge",
+        Phrase::SceneTrainPurpose => "Ein Bahnsteig und Züge mit Uhren. Wessen Uhr geht nach?",
+        Phrase::SceneLaboratory => "Labor",
+        Phrase::SceneLaboratoryPurpose => {
+            "Ein Würfel und eine Kugel fliegen vorbei, wie in einem veröffentlichten Versuch."
+        }
+        Phrase::SceneLattice => "Gitter",
+        Phrase::SceneLatticePurpose => "Kästen in einem würfelförmigen Gitter, in dem man jede Krümmung sieht.",
+        Phrase::SceneSpectra => "Spektren",
+        Phrase::SceneSpectraPurpose => {
+            "Lichter von drei Temperaturen und aus einzelnen Linien, und ihre Doppler-Verschiebung."
+        }
+        Phrase::TourChoice => "Führungen",
+        Phrase::TourPurpose => "Fährt für dich, erklärt, was du siehst, und fragt. Jede dauert keine Minute.",
+        Phrase::Loading => "{0} wird vorbereitet; die Fahrt geht solange weiter",
+        Phrase::CannotLoad => "das lässt sich nicht zeigen: {0}",
+        Phrase::StaysRecorded => "eine aufgezeichnete Fahrt bleibt in ihrer Szene",
+        Phrase::Method => "Zeichnen",
+        Phrase::AutoPurpose => "Das Programm nimmt das Verfahren, das zur Szene passt.",
+        Phrase::PolygonPurpose => "Krümmt jede Ecke jedes Dreiecks. Genau; je feiner, desto langsamer.",
+        Phrase::ImagePurpose => {
+            "Zeichnet eine Karte der Welt um dich und krümmt ihre Bildpunkte. Schnell in groben Szenen."
+        }
+        Phrase::Tolerance => "Größter Fehler",
+        Phrase::TolerancePurpose => "Größter Abstand des Gezeichneten von seinem genauen Ort, in Bildpunkten.",
+        Phrase::MapScale => "Feinheit",
+        Phrase::MapScalePurpose => "Punkte der Karte für jeden Bildpunkt.",
+        Phrase::ClocksPurpose => "Was Uhren in deiner Nähe zeigen: wie gesehen, jetzt für dich, jetzt für die Welt.",
+        Phrase::Planner => "Reiseplan",
+        Phrase::PlannerPurpose => "Sagt, wann du umdrehen und bremsen musst, um am Ort vor dir anzuhalten.",
+        Phrase::Start => "der Anfang",
     }
 }

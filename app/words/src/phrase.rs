@@ -390,4 +390,68 @@ phrases! {
     KeyFullScreen,
     /// Help: escape key.
     KeyLeave,
+    /// Page of the menu on where to ride.
+    World,
+    /// Use of the page on where to ride.
+    WorldPurpose,
+    /// Choice of the scene.
+    SceneChoice,
+    /// The old town.
+    SceneTown,
+    /// Sight of the old town.
+    SceneTownPurpose,
+    /// The row of dice.
+    SceneDice,
+    /// Sight of the row of dice.
+    SceneDicePurpose,
+    /// The trains.
+    SceneTrain,
+    /// Sight of the trains.
+    SceneTrainPurpose,
+    /// The laboratory.
+    SceneLaboratory,
+    /// Sight of the laboratory.
+    SceneLaboratoryPurpose,
+    /// The lattice of boxes.
+    SceneLattice,
+    /// Sight of the lattice.
+    SceneLatticePurpose,
+    /// The hall of spectra.
+    SceneSpectra,
+    /// Sight of the hall of spectra.
+    SceneSpectraPurpose,
+    /// Choice of a tour.
+    TourChoice,
+    /// Use of the tours.
+    TourPurpose,
+    /// Notice that something is being made ready; {0}: what.
+    Loading,
+    /// Notice of something that cannot be shown; {0}: the reason.
+    CannotLoad,
+    /// Notice that a ride which is shown again keeps its scene.
+    StaysRecorded,
+    /// Choice of the method of drawing.
+    Method,
+    /// Use of the choice by the program.
+    AutoPurpose,
+    /// Use of the polygon renderer.
+    PolygonPurpose,
+    /// Use of the image renderer.
+    ImagePurpose,
+    /// Choice of the largest error of a place.
+    Tolerance,
+    /// Use of the tolerance.
+    TolerancePurpose,
+    /// Choice of the fineness of the map.
+    MapScale,
+    /// Use of the fineness of the map.
+    MapScalePurpose,
+    /// Use of the readings of clocks.
+    ClocksPurpose,
+    /// The planner.
+    Planner,
+    /// Use of the planner.
+    PlannerPurpose,
+    /// The start of the ride.
+    Start,
 }

@@ -51,6 +51,11 @@ impl WandButtons {
         }
     }
 
+    /// True if a button chooses what the pointer shows.
+    pub fn chooses(&self, button: u32) -> bool {
+        self.action(button) == Some(Action::Choose)
+    }
+
     pub(crate) fn check(&self) -> Result<(), ConfigError> {
         let key = "tracker.wand.actions";
         for (button, text) in &self.0 {

@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 30] = [
+const PLAN: [(&str, &[&str]); 31] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -48,10 +48,28 @@ const PLAN: [(&str, &[&str]); 30] = [
         &["input", "instruments", "interface", "presentation", "render", "ride", "room", "scene", "walls", "words"],
     ),
     (
+        "command",
+        &[
+            "input",
+            "measure",
+            "physics",
+            "presentation",
+            "regular_file",
+            "render",
+            "ride",
+            "room",
+            "scene",
+            "view",
+            "walls",
+            "words",
+        ],
+    ),
+    (
         "rapidity",
         &[
             "built_in",
             "cabin",
+            "command",
             "hardware",
             "input",
             "interface",

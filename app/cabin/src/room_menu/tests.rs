@@ -1,5 +1,5 @@
 //! Laws: a wand of a VRPN server chooses every control of the menu that floats in a room of four walls, by pointing at
-//! it and pressing; the ride that this makes replays to the bit, and gives the same presentation.
+//! it and pressing; the ride that this makes replays to the bit, with the same actions in the same order.
 //!
 //! A wrong program points beside the controls, presses twice, or makes a ride whose replay is another.
 
@@ -8,10 +8,11 @@ use input::recording::Recording;
 use input::{
     DeskConfig, HeadConfig, SECOND, Sample, SampleSource, Setting, Switch, TrackingMode, VehicleKind, WandConfig,
 };
-use ride::{LightSpeed, Replay, RideLog, RideStart, Setup, Simulation, VehicleSettings};
+use ride::{LightSpeed, Replay, Replayed, RideLog, RideStart, Setup, Simulation, VehicleSettings};
 use scene::OpenPlane;
 use std::collections::BTreeSet;
 use std::sync::Arc;
+use view::{Dial, RendererName};
 use words::Language;
 
 /// Numbers of the stock server for its tracker's poses and its buttons.
@@ -57,6 +58,8 @@ struct Visit {
     presentation: Presentation,
     said: Vec<Action>,
     chosen: Vec<Action>,
+    /// Actions of the ride, in their order.
+    acted: Vec<Action>,
     at: u64,
 }
 
@@ -75,14 +78,17 @@ impl Visit {
         for action in &frame.controls.actions {
             self.presentation.act(action);
         }
+        self.acted.extend(frame.controls.actions.iter().cloned());
         let ride = MenuRide {
             tracking: self.simulation.desk().tracking(),
             places: vec![("there".to_owned(), input::Place { position_m: [5.0, 0.0, -3.0], look: [1.0, 0.0, 0.0] })],
+            tours: vec![("The twins".to_owned(), "twins")],
+            drawn_by: RendererName::Polygon,
             overlaps: true,
             is_flat: true,
             ..MenuRide::default()
         };
-        let ray = frame.controls.wand.as_deref().and_then(of_wand);
+        let ray = frame.controls.wand.as_deref().and_then(|wand| of_wand(wand, &WandButtons::default()));
         let readings = Readings::default();
         let shown = Shown {
             presentation: &self.presentation,
@@ -142,6 +148,7 @@ fn a_wand_chooses_every_control_and_the_ride_replays_to_the_bit() {
         presentation: Presentation { menu: true, ..Presentation::default() },
         said: Vec::new(),
         chosen: Vec::new(),
+        acted: Vec::new(),
         at: SECOND,
         gpu,
     };
@@ -149,7 +156,7 @@ fn a_wand_chooses_every_control_and_the_ride_replays_to_the_bit() {
     visit.bytes(greeting());
 
     // Every control of each page, as it is laid out before the wand comes.
-    for page in [MenuPage::Ride, MenuPage::Picture, MenuPage::Understand, MenuPage::Program] {
+    for page in [MenuPage::Ride, MenuPage::World, MenuPage::Picture, MenuPage::Understand, MenuPage::Program] {
         visit.page = page;
         visit.step(Vec::new());
         visit.step(Vec::new());
@@ -168,6 +175,8 @@ fn a_wand_chooses_every_control_and_the_ride_replays_to_the_bit() {
         Action::Vehicle(VehicleKind::Drive),
         Action::Vehicle(VehicleKind::Fly),
         Action::SpeedOfLight(100.0 / 3.6),
+        Action::Scene("dice".to_owned()),
+        Action::Tour("twins".to_owned()),
         Action::Jump(input::Place { position_m: [5.0, 0.0, -3.0], look: [1.0, 0.0, 0.0] }),
         Action::TogglePause,
         Action::Step,
@@ -183,13 +192,17 @@ fn a_wand_chooses_every_control_and_the_ride_replays_to_the_bit() {
         Action::Set(Setting::Latency, "low".to_owned()),
         Action::Tracking(TrackingMode::Position),
         Action::Recentre,
-        Action::NextView,
+        Action::Set(Setting::Renderer, Dial { renderer: RendererName::Image, ..Dial::default() }.to_string()),
+        Action::Set(Setting::Renderer, Dial { renderer: RendererName::Auto, ..Dial::tolerance(0.5) }.to_string()),
+        Action::Set(Setting::View, "measured".to_owned()),
         Action::Set(Setting::Colouring, "delay".to_owned()),
         Action::Toggle(Switch::Outside),
         Action::Toggle(Switch::Frozen),
         Action::Toggle(Switch::Miniature),
         Action::Toggle(Switch::Diagram),
         Action::Toggle(Switch::DiagramOfVehicle),
+        Action::Toggle(Switch::Clocks),
+        Action::Toggle(Switch::Planner),
         Action::Toggle(Switch::Readings),
         Action::ToggleHelp,
         Action::Set(Setting::Language, "de".to_owned()),
@@ -202,6 +215,14 @@ fn a_wand_chooses_every_control_and_the_ride_replays_to_the_bit() {
     assert!(fields.count() >= 2, "sliders");
 
     visit.log.finish().unwrap();
-    let frames = Replay::new(Recording::open(&path).unwrap(), Arc::new(OpenPlane)).unwrap().verify().unwrap();
+    let mut replay = Replay::new(Recording::open(&path).unwrap(), Arc::new(OpenPlane)).unwrap();
+    let (mut acted, mut frames) = (Vec::new(), 0);
+    while let Some(Replayed { frame, difference }) = replay.next_frame().unwrap() {
+        assert!(difference.is_none(), "{difference:?}");
+        acted.extend(frame.controls.actions);
+        frames += 1;
+    }
     assert!(frames > 400, "{frames}");
+    // A presentation is a function of its beginning and of these.
+    assert_eq!(acted, visit.acted);
 }

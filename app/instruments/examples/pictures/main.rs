@@ -98,7 +98,7 @@ fn planners(folder: &Path, now: &PresentMoment) {
     };
     for (name, journey) in [("ahead", Some(journey(120.0, 0.3))), ("late", Some(journey(3.0, 1.5))), ("none", None)] {
         picture(&folder.join(format!("planner_{name}.png")), Vec2::new(320.0, 170.0), None, |painter, area, _| {
-            planner(painter, area, now, journey.as_ref(), &InstrumentWords::ENGLISH);
+            planner(painter, area, now, ("", journey.as_ref()), &InstrumentWords::ENGLISH);
         });
     }
 }

@@ -5,12 +5,12 @@
 
 use built_in::{dice, town};
 use glam::DVec3;
-use input::{Action, DeskConfig, Nanos, SECOND, Setting, Switch};
+use input::{Action, DeskConfig, KeyboardKey, Nanos, SECOND, Sample, SampleSource, Setting, Switch};
 use ride::{LightSpeed, RideFrame, Simulation};
 use scene::collision::Collision;
 use scene::{OpenPlane, Scene, Surroundings};
 use std::sync::{Arc, OnceLock};
-use tours::{TourChange, TourPanel, TourPlan, TourPlayer, TourShown, TourView, built_in, parse};
+use tours::{TourChange, TourPanel, TourPlan, TourPlayer, TourView, built_in, parse};
 use view::Effects;
 
 const FRAMES_PER_SECOND: u64 = 60;
@@ -42,11 +42,18 @@ impl Ridden {
     /// One frame later.
     fn go(&mut self) -> &RideFrame {
         let now = self.now();
-        let step = self.player.step(now, self.ride.vehicle());
+        let step = self.player.step(now, &self.ride);
         self.changes.extend(step.changes);
         self.last = Some(self.ride.frame(now, &step.samples));
         self.frame += 1;
         self.last.as_ref().unwrap()
+    }
+
+    /// So many frames later.
+    fn run(&mut self, frames: u32) {
+        for _ in 0..frames {
+            self.go();
+        }
     }
 
     /// Goes on until the tour waits or is over; answers and goes on again. Returns the number of times it waited.
@@ -191,7 +198,7 @@ fn a_tour_that_is_stopped_goes_on_where_it_was() {
             }
             ridden.go();
             if ridden.player.is_over() {
-                return (ridden.position(), ridden.player.tour_s());
+                return (ridden.position(), ridden.player.own_s());
             }
         }
         panic!("the tour does not end");
@@ -233,13 +240,86 @@ fn a_question_stays_open_until_it_is_answered() {
 }
 
 #[test]
-fn changes_are_actions_from_whatever_is_shown() {
-    let shown = TourShown { view: TourView::Measured, panels: vec![TourPanel::Miniature] };
-    let actions = |change: TourChange| change.actions(&shown);
-    assert_eq!(actions(TourChange::Effects(Effects::GEOMETRY)), [Action::Set(Setting::Effects, "geometry".to_owned())]);
-    assert_eq!(actions(TourChange::View(TourView::Measured)), []);
-    assert_eq!(actions(TourChange::View(TourView::Seen)), [Action::NextView, Action::NextView]);
-    let panels = vec![TourPanel::Diagram, TourPanel::Clocks];
-    let expected = [Action::Toggle(Switch::Diagram), Action::Toggle(Switch::Miniature)];
-    assert_eq!(actions(TourChange::Show(panels)), expected);
+fn changes_are_actions_that_hold_whatever_is_shown() {
+    let set = |setting, text: &str| vec![Action::Set(setting, text.to_owned())];
+    assert_eq!(TourChange::Effects(Effects::GEOMETRY).actions(), set(Setting::Effects, "geometry"));
+    assert_eq!(TourChange::View(TourView::Measured).actions(), set(Setting::View, "measured"));
+    let turned = TourChange::Show(vec![TourPanel::Diagram, TourPanel::Clocks]).actions();
+    let on = |switch, on| Action::Turn(switch, on);
+    let expected = [on(Switch::Diagram, true), on(Switch::Miniature, false), on(Switch::Clocks, true)];
+    assert_eq!(turned, expected);
+}
+
+/// Ride of the twins to its first question, whose visitor does `meddle` in every frame. Returns the distance from the
+/// gate, and the own time.
+fn twins(frames_per_second: u64, mut meddle: impl FnMut(u64, Nanos) -> Vec<Sample>) -> (f64, f64) {
+    let (scene, _) = old_town();
+    let plan = built_in("twins").unwrap();
+    let [start, _] = plan.start.unwrap();
+    let mut ridden = Ridden::new(plan, scene, Arc::new(OpenPlane));
+    for frame in 0..frames_per_second * 120 {
+        let now = frame * SECOND / frames_per_second;
+        let mut samples = meddle(frame, now);
+        samples.extend(ridden.player.step(now, &ridden.ride).samples);
+        samples.sort_by_key(|sample| sample.at);
+        ridden.last = Some(ridden.ride.frame(now, &samples));
+        if ridden.player.question().is_some() {
+            return (ridden.position().distance(start), ridden.player.own_s());
+        }
+    }
+    panic!("the twins do not come back");
+}
+
+#[test]
+fn the_traveller_comes_back_whatever_the_visitor_does_and_however_late_frames_come() {
+    let quiet = twins(60, |_, _| Vec::new());
+    assert!(quiet.0 < 0.2, "{quiet:?}");
+    let act = |now, action: Action| vec![Sample::action(now, &action)];
+    // Held by the visitor for a while, in the middle of a station.
+    let held = twins(60, |frame, now| match frame {
+        200 | 500 => act(now, Action::TogglePause),
+        _ => Vec::new(),
+    });
+    // The window loses its focus, and the visitor plays with a key.
+    let meddled = twins(60, |frame, now| match frame % 97 {
+        13 => vec![Sample::closed(now, SampleSource::Keyboard)],
+        40 => vec![Sample::key(now, KeyboardKey::W, true)],
+        41 => vec![Sample::key(now, KeyboardKey::W, false)],
+        _ => Vec::new(),
+    });
+    let slow_clock = twins(60, |frame, now| if frame == 0 { act(now, Action::TimeScale(0.5)) } else { Vec::new() });
+    let slow_frames = twins(7, |_, _| Vec::new());
+    for (name, ridden) in [("held", held), ("clock", slow_clock), ("frames", slow_frames)] {
+        assert!((ridden.0 - quiet.0).abs() < 0.2 && (ridden.1 - quiet.1).abs() < 0.02, "{name}: {ridden:?} {quiet:?}");
+    }
+    assert!(meddled.0 < 1.5, "{meddled:?}");
+}
+
+#[test]
+fn a_visitor_who_holds_the_ride_holds_the_tour_and_cannot_turn_its_pauses_round() {
+    let scene = dice::build();
+    let mut ridden = Ridden::new(built_in("terrell").unwrap(), &scene, Arc::new(OpenPlane));
+    let toggle = |ridden: &mut Ridden| {
+        let now = ridden.now();
+        let mut samples = ridden.player.step(now, &ridden.ride).samples;
+        samples.push(Sample::action(now, &Action::TogglePause));
+        ridden.last = Some(ridden.ride.frame(now, &samples));
+        ridden.frame += 1;
+    };
+    ridden.run(100);
+    toggle(&mut ridden);
+    ridden.go();
+    let (own_s, place) = (ridden.player.own_s(), ridden.position());
+    ridden.run(600);
+    assert_eq!((ridden.player.own_s(), ridden.position(), ridden.player.is_waiting()), (own_s, place, false));
+    toggle(&mut ridden);
+    while !ridden.player.is_waiting() {
+        ridden.go();
+    }
+    ridden.go();
+    let place = ridden.position();
+    // Whoever lets the ride go while the tour asks is held again at once.
+    toggle(&mut ridden);
+    ridden.run(60);
+    assert!(ridden.position().distance(place) < 1.0, "{} {place}", ridden.position());
 }

@@ -1,6 +1,7 @@
 //! Options for drawing a picture, in a window or into a file.
 
 use clap::Args;
+use presentation::Presentation;
 use render::display::{Development, Exposure, Gamut, Tone};
 use scene::Start;
 use view::Effects;
@@ -52,6 +53,9 @@ pub struct PictureOptions {
     /// Number of threads that transform the scene, 1 to 1024 [default: one per processor core].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub threads: Option<u32>,
+    /// True if the command line has an option for the picture that a recording tells, too.
+    #[arg(skip)]
+    pub is_given: bool,
 }
 
 /// Vertical field of view of a picture of which nothing else is said, degrees.
@@ -61,6 +65,16 @@ impl PictureOptions {
     /// Vertical field of view in degrees: the given one, else that of the start.
     pub fn fov_deg(&self, start: &Start) -> f64 {
         self.fov.unwrap_or(start.field_of_view_rad.map_or(FOV_DEGREES, f64::to_degrees))
+    }
+
+    /// Presentation by these options, from a start.
+    pub fn presentation(&self, start: &Start) -> Presentation {
+        Presentation {
+            effects: self.effects,
+            fov_deg: self.fov_deg(start),
+            development: self.development(),
+            ..Presentation::default()
+        }
     }
 
     /// Development of radiance into the picture.

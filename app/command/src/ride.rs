@@ -9,7 +9,7 @@ use super::frame_rate::FrameRate;
 use super::kiosk::KioskOptions;
 use super::picture::PictureOptions;
 use super::values;
-use super::world::WorldOptions;
+use super::world::{SceneChoice, WorldOptions};
 use input::{KeyMap, TrackerUrl, TrainerUrl};
 use presentation::{Latency, Presentation};
 use ride::{AssistMode, IntegratorKind, Nose};
@@ -91,7 +91,7 @@ pub struct RideOptions {
     /// Guided tour: searchlight, terrell, twins, slow-light, or a tour's file (.toml). Captions say what is seen; Enter
     /// stops the tour and goes on.
     #[arg(long, value_name = "TOUR", help_heading = "Session")]
-    #[arg(conflicts_with_all = ["replay", "out", "scene", "speed_of_light", "vehicle", "kiosk", "assist"])]
+    #[arg(conflicts_with_all = ["replay", "scene", "speed_of_light", "vehicle", "kiosk", "assist"])]
     pub tour: Option<String>,
     /// Open a window for an operator beside those of the audience: menu, devices, pace, and a copy of the picture.
     #[arg(long, help_heading = "Session")]
@@ -115,9 +115,6 @@ pub struct RideOptions {
     /// Keys that do other work than their own by the user's settings.
     #[arg(skip)]
     pub keys: KeyMap,
-    /// True if the command line has an option for the picture that a recording tells, too.
-    #[arg(skip)]
-    pub picture_is_given: bool,
 }
 
 impl RideOptions {
@@ -144,13 +141,25 @@ impl RideOptions {
     /// Presentation with which a ride begins that starts as `start` says.
     pub fn presentation(&self, start: &Start) -> Presentation {
         Presentation {
-            effects: self.picture.effects,
             latency: self.latency,
-            fov_deg: self.picture.fov_deg(start),
-            development: self.picture.development(),
             language: self.language.unwrap_or_default(),
-            ..Presentation::default()
+            ..self.picture.presentation(start)
         }
+    }
+
+    /// The same options for a live ride in another scene, seen from its start in its own speed of light. What
+    /// `--record` names stays the recording of the ride before.
+    #[must_use]
+    pub fn in_scene(&self, scene: SceneChoice) -> Self {
+        let mut options = Self { record: None, tour: None, ..self.clone() };
+        options.world = WorldOptions { scene: Some(scene), camera: None, speed_of_light: None, ..options.world };
+        options
+    }
+
+    /// The same options for a ride on a tour.
+    #[must_use]
+    pub fn on_tour(&self, name: &str) -> Self {
+        Self { tour: Some(name.to_owned()), ..self.in_scene(SceneChoice::default()) }
     }
 
     /// Dial by which the frames of the ride are drawn; `software`: on the CPU.

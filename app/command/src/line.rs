@@ -1,9 +1,7 @@
 //! The command line as a whole: subcommands, help, mistakes.
 
-use crate::output::say::tell;
 use std::ffi::OsString;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::parser::ValueSource;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -133,33 +131,6 @@ pub enum Stop {
     Usage(String),
 }
 
-impl Stop {
-    /// Exit status of a wrong command line.
-    const USAGE: u8 = 2;
-
-    /// Prints the message. Returns the exit status: 0 for help that was asked for, 2 for a mistake.
-    pub fn report(&self) -> ExitCode {
-        match self {
-            Self::Help(text) => match text.print() {
-                Ok(()) if !text.use_stderr() => ExitCode::SUCCESS,
-                _ => ExitCode::from(Self::USAGE),
-            },
-            Self::Usage(sentence) => {
-                tell(format_args!("rapidity: {sentence}"));
-                ExitCode::from(Self::USAGE)
-            }
-        }
-    }
-}
-
-/// Reads the command line of this process.
-///
-/// # Errors
-/// Exit status, after help or the mistake has been printed.
-pub fn parse() -> Result<Command, ExitCode> {
-    parse_from(std::env::args_os()).map_err(|stop| stop.report())
-}
-
 /// Reads a command line, the program's name first.
 ///
 /// # Errors
@@ -168,10 +139,18 @@ pub fn parse() -> Result<Command, ExitCode> {
 pub fn parse_from(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<Command, Stop> {
     let matches = Cli::command().try_get_matches_from(arguments).map_err(stop)?;
     let Cli { mut command } = Cli::from_arg_matches(&matches).map_err(stop)?;
-    if let (Command::Ride(options), Some(matches)) = (&mut command, matches.subcommand_matches("ride")) {
-        let given = |id| matches.value_source(id) == Some(ValueSource::CommandLine);
-        options.drawing_is_given = ["renderer", "tolerance", "edge", "transform", "map_scale"].into_iter().any(given);
-        options.picture_is_given = ["effects", "fov", "exposure", "tone", "gamut"].into_iter().any(given);
+    if let Some((_, matches)) = matches.subcommand() {
+        let given = |id: &&str| matches.value_source(id) == Some(ValueSource::CommandLine);
+        let picture = || ["effects", "fov", "exposure", "tone", "gamut"].iter().any(given);
+        match &mut command {
+            Command::Ride(options) => {
+                let drawing = ["renderer", "tolerance", "edge", "transform", "map_scale"];
+                options.drawing_is_given = drawing.iter().any(given);
+                options.picture.is_given = picture();
+            }
+            Command::Render(options) => options.picture.is_given = picture(),
+            _ => {}
+        }
     }
     match &command {
         Command::Ride(options) => options.check(),

@@ -6,7 +6,7 @@
 //! (`conflicts_with`, `requires`), others are in a struct's `check`.
 //!
 //! ```
-//! use rapidity::command::{Command, parse_from};
+//! use command::{Command, parse_from};
 //! let Ok(Command::Render(options)) = parse_from(["rapidity", "render", "--beta", "0,0,-0.6", "--out", "street.png"])
 //! else { panic!() };
 //! assert_eq!(options.viewpoint.celerity().gamma(), 1.25);
@@ -29,7 +29,7 @@ mod world;
 pub use dial::{DialOptions, map_scale_of_stills, map_scale_of_windows};
 pub use frame_rate::FrameRate;
 pub use kiosk::KioskOptions;
-pub use line::{CheckOptions, Command, DevicesOptions, Stop, TownOptions, parse, parse_from};
+pub use line::{CheckOptions, Command, DevicesOptions, Stop, TownOptions, parse_from};
 pub use measure::MeasureOptions;
 pub use picture::PictureOptions;
 pub use rays::RayOptions;
