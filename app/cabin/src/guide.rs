@@ -6,6 +6,7 @@ use input::Place;
 use instruments::{DiagramFrame, DiagramView, InstrumentWords, MiniatureView, PlanPicture, PlanTexture, Trail};
 use instruments::{PlannedJourney, WatchedClock, diagram, miniature, planner};
 use interface::ClockRow;
+use physics::Event;
 use presentation::Presentation;
 use ride::RideFrame;
 use scene::{LocalName, NamedPlace, Scene, SceneClock};
@@ -75,6 +76,11 @@ impl Guide {
         self.miniature.field_of_view_rad = 2.0 * (half.tan() * aspect).atan();
         self.miniature.aberration = presentation.effects.bend();
         self.miniature.follow(&self.trail, self.plan.as_ref().map(|plan| plan.area));
+    }
+
+    /// Marks an event in the diagram.
+    pub fn mark(&mut self, name: &str, event: Event) {
+        self.trail.mark(name, event);
     }
 
     /// Places to go to, with their names.

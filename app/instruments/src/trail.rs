@@ -87,15 +87,15 @@ pub struct Trail {
 }
 
 impl Trail {
-    /// Adds a frame of the ride. A restart, seen by the own clock that goes back, begins a new trail; the clocks that
-    /// are watched stay. A jump begins a new line.
+    /// Adds a frame of the ride. A restart, seen by the own clock that goes back, begins a new trail, and so does
+    /// another speed of light, which makes it another world; the clocks that are watched stay. A jump begins a new line.
     pub fn note(&mut self, frame: &RideFrame) {
         self.note_moment(PresentMoment::of(frame));
     }
 
     /// Adds a moment of the ride, as [`Trail::note`] does.
     pub fn note_moment(&mut self, now: PresentMoment) {
-        if self.present.is_some_and(|before| now.own_s < before.own_s) {
+        if self.present.is_some_and(|before| now.own_s < before.own_s || now.light_speed != before.light_speed) {
             *self = Self { clocks: std::mem::take(&mut self.clocks), ..Self::default() };
         }
         let jumped = self.present.is_some_and(|before| is_jump(before.event, now.event));

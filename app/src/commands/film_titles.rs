@@ -1,6 +1,7 @@
 //! What a film writes over its pictures: captions, map, diagram, clocks.
 
 use crate::session::reel::Told;
+use crate::session::tour_ride::TourMark;
 use cabin::Guide;
 use image::RgbaImage;
 use interface::{DrawnSheet, SHEET_FORMAT, SheetPointer};
@@ -17,6 +18,8 @@ pub struct FilmTitles {
     readback: Sheet,
     guide: Guide,
     aspect: f64,
+    /// Number of the frame whose events are marked.
+    marked: Option<u64>,
 }
 
 impl FilmTitles {
@@ -28,6 +31,7 @@ impl FilmTitles {
             readback: Sheet::new(gpu, size, SHEET_FORMAT),
             guide: Guide::new(scene),
             aspect: f64::from(size[0]) / f64::from(size[1]),
+            marked: None,
         }
     }
 
@@ -36,7 +40,11 @@ impl FilmTitles {
     /// # Errors
     /// [`GpuError`] if the device went away.
     pub fn write(&mut self, gpu: &Gpu, told: &Told, picture: &mut RgbaImage) -> Result<(), GpuError> {
-        let Told { frame, presentation, caption } = told;
+        let Told { frame, presentation, caption, marks } = told;
+        for TourMark { name, event } in marks.iter().filter(|_| self.marked != Some(frame.record.frame)) {
+            self.guide.mark(name.in_language(presentation.language.code()), *event);
+        }
+        self.marked = Some(frame.record.frame);
         self.guide.note(frame, presentation, self.aspect);
         let language = presentation.language;
         let clocks = self.guide.wanted_clocks(frame, presentation);

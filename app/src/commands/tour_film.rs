@@ -54,7 +54,8 @@ pub fn film(gpu: &Gpu, options: &RideOptions, name: &str, path: &Path) -> Result
         }
         let caption = tour.caption(presentation.language);
         let is_over = caption.is_none();
-        let told = |shown: &_| Some(Told { frame: frame.clone(), presentation: *shown, caption });
+        let marks = tour.take_marks();
+        let told = |shown: &_| Some(Told { frame: frame.clone(), presentation: *shown, caption, marks });
         if !reel.add_told(&frame, told) || is_over {
             break;
         }

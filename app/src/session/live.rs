@@ -6,7 +6,7 @@
 use crate::output::say::tell;
 use crate::session::gaps::ShownTimes;
 use crate::session::lost_time::LostTime;
-use crate::session::tour_ride::TourRide;
+use crate::session::tour_ride::{TourMark, TourRide};
 use hardware::heard::{self, DeviceReport};
 use input::devices::{DeviceState, Devices};
 use input::head::Tracking;
@@ -119,6 +119,11 @@ impl Live {
     /// Caption of the tour; `None` without one, and once it is over.
     pub fn caption(&self) -> Option<Caption> {
         self.tour.as_ref()?.caption(self.language)
+    }
+
+    /// Events that the tour has named since the last call.
+    pub fn take_marks(&mut self) -> Vec<TourMark> {
+        self.tour.as_mut().map_or_else(Vec::new, |tour| tour.take_marks())
     }
 
     /// Carries out an action that concerns the tour, if there is one.

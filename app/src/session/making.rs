@@ -13,6 +13,8 @@ use view::{Dial, Occasion};
 pub struct Making {
     /// What it is, for a sentence.
     pub what: String,
+    /// True if the rider is told of it.
+    pub is_told: bool,
     thread: JoinHandle<Result<Made, Error>>,
 }
 
@@ -27,11 +29,12 @@ pub enum Made {
 impl Making {
     /// Begins to make another ride ready, to be drawn by `dial`.
     pub fn ride(what: String, options: RideOptions, room: RideRoom, dial: Dial) -> Self {
-        Self::begin(what, move || {
+        let made = Self::begin(what, move || {
             let mut waiting = WaitingRide::of(&options, room)?;
             let choice = Choice::of(std::mem::take(&mut waiting.scene), dial, Occasion::Ride)?;
             Ok(Made::Ride(Box::new(waiting), Box::new(choice)))
-        })
+        });
+        made.told()
     }
 
     /// Begins to make a scene ready again, to be drawn by `dial`.
@@ -42,8 +45,14 @@ impl Making {
         })
     }
 
+    /// The same work, of which the rider is told.
+    #[must_use]
+    pub fn told(self) -> Self {
+        Self { is_told: true, ..self }
+    }
+
     fn begin(what: String, work: impl FnOnce() -> Result<Made, Error> + Send + 'static) -> Self {
-        Self { what, thread: std::thread::spawn(work) }
+        Self { what, is_told: false, thread: std::thread::spawn(work) }
     }
 
     /// True once the work is done.

@@ -6,6 +6,7 @@ use crate::output::say::tell;
 use crate::session::gaps::ShownTimes;
 use crate::session::outside_look::OutsideLook;
 use crate::session::start::{PRESENTATION, recorded};
+use crate::session::tour_ride::TourMark;
 use command::WorldOptions;
 use input::recording::RecordingError;
 use input::{Action, Nanos, SECOND};
@@ -56,6 +57,8 @@ pub struct Told {
     pub presentation: Presentation,
     /// Caption of a tour.
     pub caption: Option<Caption>,
+    /// Events of the tour, each told once.
+    pub marks: Vec<TourMark>,
 }
 
 impl Look {

@@ -2,28 +2,51 @@
 
 use input::{Action, Nanos, Sample, SampleSource, VehicleKind};
 use interface::{Caption, CaptionQuestion, ChosenAnswer};
+use physics::Event;
 use ride::Simulation;
-use tours::{TourChange, TourPlayer, TourQuestion};
+use tours::{TourChange, TourEvent, TourPlayer, TourQuestion, TourText};
 use words::Language;
 
 /// Tour that is being played.
 pub struct TourRide {
     player: TourPlayer,
+    marks: Vec<TourMark>,
+}
+
+/// Event of a tour, for the diagram.
+#[derive(Clone, Debug)]
+pub struct TourMark {
+    /// Name of the event.
+    pub name: TourText,
+    /// Event, world axes.
+    pub event: Event,
 }
 
 impl TourRide {
     /// Tour from its beginning.
     pub fn new(player: TourPlayer) -> Self {
-        Self { player }
+        Self { player, marks: Vec::new() }
     }
 
     /// Samples of the tour up to the time `now`, in the order of their times.
     pub fn samples(&mut self, now: Nanos, ride: &Simulation) -> Vec<Sample> {
         let step = self.player.step(now, ride);
         let mut samples = step.samples;
+        let vehicle = ride.vehicle();
+        for change in &step.changes {
+            if let TourChange::Mark(TourEvent { name, position, after_s }) = change {
+                let ct = vehicle.state().ct + vehicle.light_speed().metres(*after_s);
+                self.marks.push(TourMark { name: name.clone(), event: Event { ct, position: *position } });
+            }
+        }
         let actions = step.changes.iter().flat_map(TourChange::actions);
         samples.extend(actions.map(|action| Sample::action(now, &action)));
         samples
+    }
+
+    /// Events that have been named since the last call.
+    pub fn take_marks(&mut self) -> Vec<TourMark> {
+        std::mem::take(&mut self.marks)
     }
 
     /// True if this source of samples is the tour's own rider as long as the tour lasts.

@@ -1,6 +1,6 @@
 //! What is shown next in the open windows: another ride, or the present one drawn in another way.
 
-use super::open::{Open, map_scale, title, unseen, upload};
+use super::open::{Open, has_clockwork, map_scale, title, unseen, upload};
 use crate::error::Error;
 use crate::frame::RideInProgress;
 use crate::output::say::tell;
@@ -35,15 +35,25 @@ impl Open {
     /// Keeps the way of drawing that is asked for, and tells of what is being made ready.
     pub(super) fn look_ahead(&mut self) {
         if let Some(making) = &self.making {
-            let told = self.presentation.language.fill(Phrase::Loading, &[&making.what]);
-            return self.ride.live.tell(told);
+            if making.is_told {
+                let told = self.presentation.language.fill(Phrase::Loading, &[&making.what]);
+                self.ride.live.tell(told);
+            }
+            return;
+        }
+        // What moves in the scene is driven by clocks that count seconds.
+        let light = self.ride.frame.as_ref().map(|frame| frame.vehicle.light_speed().speed_of_light_m_s());
+        if self.has_clockwork && light.is_some() && light != self.options.world.speed_of_light {
+            self.options.world.speed_of_light = light;
+            self.making = Some(Making::method(self.options.world.clone(), self.dial));
+            return;
         }
         let software = self.gpu.is_software();
         let asked = self.presentation.dial.map(DialOptions::of);
         let dial = asked.map(|dial| dial.dial(Occasion::Ride, map_scale_of_windows(software)));
         let dial = dial.unwrap_or_else(|| self.options.dial(software));
         if dial != self.dial {
-            self.making = Some(Making::method(self.options.world.clone(), dial));
+            self.making = Some(Making::method(self.options.world.clone(), dial).told());
             self.dial = dial;
         }
     }
@@ -58,11 +68,12 @@ impl Open {
     /// # Errors
     /// A lost device, or devices that cannot be opened again.
     pub(super) fn with_next(mut self) -> Result<Self, Error> {
+        let is_told = self.making.as_ref().is_some_and(|making| making.is_told);
         match self.making.take().map(Making::outcome) {
             None => Ok(self),
             Some(Ok(Made::Ride(waiting, choice))) => self.with_ride(*waiting, *choice),
             Some(Ok(Made::Method(choice))) => {
-                self.draw_by(*choice)?;
+                self.draw_by(*choice, is_told)?;
                 Ok(self)
             }
             Some(Err(error)) => {
@@ -81,8 +92,10 @@ impl Open {
     }
 
     /// Draws the present ride by another choice from now on.
-    fn draw_by(&mut self, choice: Choice) -> Result<(), Error> {
-        self.ride.live.tell(choice.because.clone());
+    fn draw_by(&mut self, choice: Choice, is_told: bool) -> Result<(), Error> {
+        if is_told {
+            self.ride.live.tell(choice.because.clone());
+        }
         self.set_map_scale(choice.dial);
         self.ride.draw_by(upload(&self.gpu, choice, &self.options, self.format)?);
         Ok(())
@@ -94,6 +107,7 @@ impl Open {
         tell(format_args!("{}, on {}", choice.because, self.gpu.description()));
         self.windows.iter().for_each(|surface| surface.window.set_title(&title(&choice.scene.name)));
         self.guide = Guide::new(&choice.scene);
+        self.has_clockwork = has_clockwork(&choice.scene);
         let start = choice.scene.start;
         self.set_map_scale(choice.dial);
         let mut renderer = upload(&self.gpu, choice, &options, self.format)?;

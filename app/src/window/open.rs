@@ -26,6 +26,7 @@ use render::picture::largest_side;
 use render::target::{Format, texture};
 use render::{Gpu, GpuError, SceneRenderer, descriptor};
 use room::WindowPlace;
+use scene::Scene;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use tours::TourPlan;
@@ -87,6 +88,8 @@ pub struct Open {
     /// Way of drawing that was asked for, and the one that draws.
     pub(super) dial: Dial,
     pub(super) drawn_by: Dial,
+    /// True if a clock drives something in the scene, so that it changes with the speed of light.
+    pub(super) has_clockwork: bool,
     /// What is made ready to be shown next.
     pub(super) making: Option<Making>,
     /// Corners of the channels, once they have been moved.
@@ -158,6 +161,7 @@ impl Open {
         let format = Format::fast(options.samples(gpu.is_software()));
         let dial = options.dial(gpu.is_software());
         let guide = Guide::new(&scene);
+        let has_clockwork = has_clockwork(&scene);
         let spinner = progress::cutting(dial);
         let start = scene.start;
         let choice = Choice::of(scene, dial, Occasion::Ride)?;
@@ -225,6 +229,7 @@ impl Open {
             room,
             dial,
             drawn_by,
+            has_clockwork,
             making: None,
             calibrating: None,
             cursor: None,
@@ -241,6 +246,11 @@ impl Open {
 /// Title of the windows of a ride in a scene of this name.
 pub(super) fn title(scene: &str) -> String {
     format!("Rapidity: {scene}")
+}
+
+/// True if a clock drives something in a scene.
+pub(super) fn has_clockwork(scene: &Scene) -> bool {
+    scene.motions.iter().any(|motion| motion.animated().is_some())
 }
 
 /// Texels of a map for each pixel of a flat picture.

@@ -5,6 +5,7 @@ use super::operator::Operated;
 use super::{calibrating, readings};
 use crate::canvas::Canvas;
 use crate::error::Error;
+use crate::session::tour_ride::TourMark;
 use cabin::Shown;
 use input::{Action, SECOND, Sample};
 use std::sync::atomic::Ordering;
@@ -58,6 +59,9 @@ impl Open {
         let has_operator = self.operator.is_some();
         let menu = (shown.menu || has_operator).then(|| self.menu());
         let [width, height] = self.windows[0].size().map(f64::from);
+        for TourMark { name, event } in self.ride.live.take_marks() {
+            self.guide.mark(name.in_language(shown.language.code()), event);
+        }
         if let Some(frame) = &self.ride.frame {
             self.guide.note(frame, &shown, width / height);
         }

@@ -5,10 +5,11 @@ use crate::tour_error::TourError;
 use crate::tour_file::parse;
 
 /// Names and texts of the built-in tours, in the order of a menu.
-pub const BUILT_IN: [(&str, &str); 4] = [
+pub const BUILT_IN: [(&str, &str); 5] = [
     ("searchlight", include_str!("tours/searchlight.toml")),
     ("terrell", include_str!("tours/terrell.toml")),
     ("twins", include_str!("tours/twins.toml")),
+    ("bells", include_str!("tours/bells.toml")),
     ("slow-light", include_str!("tours/slow-light.toml")),
 ];
 

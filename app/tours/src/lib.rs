@@ -16,7 +16,7 @@ mod tour_file;
 pub use built_in::{BUILT_IN, built_in, built_in_plans};
 pub use change::TourChange;
 pub use plan::{
-    StationRide, TourAnswer, TourPanel, TourPlan, TourQuestion, TourRoute, TourStation, TourText, TourView,
+    StationRide, TourAnswer, TourEvent, TourPanel, TourPlan, TourQuestion, TourRoute, TourStation, TourText, TourView,
 };
 pub use player::{TourPlayer, TourStep};
 pub use tour_error::{PlayError, TourError};

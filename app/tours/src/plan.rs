@@ -45,8 +45,10 @@ impl TourView {
 /// Instrument that a station shows beside the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TourPanel {
-    /// Minkowski diagram of the ride.
+    /// Minkowski diagram of the ride, in the world's frame.
     Diagram,
+    /// Minkowski diagram of the ride, in the vehicle's frame.
+    DiagramOfVehicle,
     /// Plan of the world with the vehicle.
     Miniature,
     /// Readings of the scene's clocks, and the rider's own.
@@ -102,12 +104,25 @@ pub struct TourStation {
     pub view: Option<TourView>,
     /// Instruments from here on; `None` leaves them as they are.
     pub show: Option<Vec<TourPanel>>,
+    /// Events that the diagram marks from here on.
+    pub events: Vec<TourEvent>,
     /// Caption; empty for none.
     pub caption: TourText,
     /// True if the tour stops at the end of the station until the visitor goes on.
     pub pause: bool,
     /// Question at the end of the station.
     pub question: Option<TourQuestion>,
+}
+
+/// Event that the diagram marks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TourEvent {
+    /// Name in the diagram.
+    pub name: TourText,
+    /// Place, world metres.
+    pub position: DVec3,
+    /// World time since the beginning of its station, seconds.
+    pub after_s: f64,
 }
 
 /// Route of a tour on the ground.
@@ -138,8 +153,6 @@ pub struct TourPlan {
     pub start: Option<[DVec3; 2]>,
     /// Route of a bicycle.
     pub route: TourRoute,
-    /// Recording that is shown instead of a ride, relative to the tour's own file.
-    pub recording: Option<String>,
     /// Stations in order, at least one.
     pub stations: Vec<TourStation>,
 }

@@ -167,6 +167,7 @@ impl TourPlayer {
         changes.extend(station.effects.map(TourChange::Effects));
         changes.extend(station.view.map(TourChange::View));
         changes.extend(station.show.clone().map(TourChange::Show));
+        changes.extend(station.events.iter().cloned().map(TourChange::Mark));
     }
 
     /// Caption to show; `None` if there is none at present.

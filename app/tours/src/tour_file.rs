@@ -1,7 +1,7 @@
 //! Reader of tour files: strict, with the line and the key in every sentence.
 
 use crate::plan::{
-    StationRide, TourAnswer, TourPanel, TourPlan, TourQuestion, TourRoute, TourStation, TourText, TourView,
+    StationRide, TourAnswer, TourEvent, TourPanel, TourPlan, TourQuestion, TourRoute, TourStation, TourText, TourView,
 };
 use crate::tour_error::TourError;
 use glam::DVec3;
@@ -27,6 +27,8 @@ const LIGHT: RangeInclusive<f64> = 1e-6..=1e12;
 const THRUST: RangeInclusive<f64> = 1e-3..=1e2;
 const GAIN: RangeInclusive<f64> = 1e-3..=1e3;
 const FARTHEST_M: f64 = 1e9;
+/// Largest time between an event and its station, seconds.
+const FARTHEST_S: f64 = 1e6;
 /// Rate at which a rider gains speed if the tour does not say, m/s².
 const USUAL_GAIN_M_S2: f64 = 1.0;
 
@@ -46,7 +48,6 @@ struct PlanTable {
     gain: Option<Spanned<f64>>,
     start: Option<Spanned<StartTable>>,
     route: Option<Spanned<RouteValue>>,
-    recording: Option<Spanned<String>>,
     #[serde(default)]
     station: Vec<Spanned<StationTable>>,
 }
@@ -75,10 +76,21 @@ struct StationTable {
     effects: Option<Spanned<String>>,
     view: Option<Spanned<String>>,
     show: Option<Vec<Spanned<String>>>,
+    #[serde(default)]
+    event: Vec<Spanned<EventTable>>,
     caption: Option<Spanned<Words>>,
     #[serde(default)]
     pause: bool,
     question: Option<Spanned<QuestionTable>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct EventTable {
+    name: Spanned<Words>,
+    position: [f64; 3],
+    #[serde(default)]
+    after: f64,
 }
 
 #[derive(Deserialize)]
@@ -145,7 +157,7 @@ impl Source<'_> {
                 other => return Err(self.named(named, "vehicle", other, "bicycle, drive or fly")),
             },
         };
-        let rides = vehicle == VehicleKind::Bicycle && table.recording.is_none();
+        let rides = vehicle == VehicleKind::Bicycle;
         if table.station.is_empty() {
             return Err(self.fault(self.text.len(), "it has no station: add a table [[station]]".to_owned()));
         }
@@ -170,7 +182,6 @@ impl Source<'_> {
             gain_m_s2: table.gain.map_or(Ok(USUAL_GAIN_M_S2), |value| self.number("gain", &value, GAIN))?,
             start: table.start.map(|start| self.start(&start)).transpose()?,
             route: table.route.map_or(Ok(TourRoute::Circuit), |route| self.route(route))?,
-            recording: table.recording.map(|text| self.plain("recording", text)).transpose()?,
             stations,
         })
     }
@@ -228,6 +239,11 @@ impl Source<'_> {
                 let fault = "speed is for a bicycle that rides along its route: take it away, or set thrust";
                 return Err(self.fault(speed.span().start, fault.to_owned()));
             }
+            (Some(speed), None) if speed.get_ref().trim().ends_with('c') => {
+                let fault = "speed is road per second of the rider's own time, so that c is no bound of it: \
+                             write it in km/h or m/s";
+                return Err(self.fault(speed.span().start, fault.to_owned()));
+            }
             (Some(speed), None) => StationRide::Along { speed_m_s: self.speed("speed", speed, SPEED)? },
             (None, Some(thrust)) => self.thrust(thrust, rides)?,
             (None, None) if rides => before.unwrap_or(StationRide::Along { speed_m_s: 0.0 }),
@@ -246,9 +262,10 @@ impl Source<'_> {
         let show = table.show.map(|names| {
             let panel = |text: &Spanned<String>| match text.get_ref().as_str() {
                 "diagram" => Ok(TourPanel::Diagram),
+                "diagram-of-vehicle" => Ok(TourPanel::DiagramOfVehicle),
                 "miniature" => Ok(TourPanel::Miniature),
                 "clocks" => Ok(TourPanel::Clocks),
-                other => Err(self.named(text, "show", other, "diagram, miniature or clocks")),
+                other => Err(self.named(text, "show", other, "diagram, diagram-of-vehicle, miniature or clocks")),
             };
             names.iter().map(panel).collect::<Result<Vec<_>, _>>()
         });
@@ -263,10 +280,23 @@ impl Source<'_> {
             effects: effects.transpose()?,
             view: view.transpose()?,
             show: show.transpose()?,
+            events: table.event.into_iter().map(|event| self.event(event)).collect::<Result<_, _>>()?,
             caption: table.caption.map_or(Ok(TourText::default()), |words| self.words("caption", words))?,
             pause: table.pause,
             question: table.question.map(|question| self.question(question)).transpose()?,
         })
+    }
+
+    fn event(&self, event: Spanned<EventTable>) -> Result<TourEvent, TourError> {
+        let at = event.span().start;
+        let EventTable { name, position, after: after_s } = event.into_inner();
+        let position = DVec3::from_array(position);
+        self.place(at, "position", position)?;
+        if !(after_s.is_finite() && after_s.abs() <= FARTHEST_S) {
+            let fault = format!("after is {after_s}: expected seconds from −{FARTHEST_S} to {FARTHEST_S}");
+            return Err(self.fault(at, fault));
+        }
+        Ok(TourEvent { name: self.words("name", name)?, position, after_s })
     }
 
     fn thrust(&self, thrust: &Spanned<[i8; 3]>, rides: bool) -> Result<StationRide, TourError> {

@@ -45,7 +45,19 @@ const PLAN: [(&str, &[&str]); 31] = [
     ("measure", &["exact_reference", "input", "physics", "render", "ride", "scene", "trace", "view"]),
     (
         "cabin",
-        &["input", "instruments", "interface", "presentation", "render", "ride", "room", "scene", "walls", "words"],
+        &[
+            "input",
+            "instruments",
+            "interface",
+            "physics",
+            "presentation",
+            "render",
+            "ride",
+            "room",
+            "scene",
+            "walls",
+            "words",
+        ],
     ),
     (
         "command",

@@ -246,7 +246,8 @@ fn changes_are_actions_that_hold_whatever_is_shown() {
     assert_eq!(TourChange::View(TourView::Measured).actions(), set(Setting::View, "measured"));
     let turned = TourChange::Show(vec![TourPanel::Diagram, TourPanel::Clocks]).actions();
     let on = |switch, on| Action::Turn(switch, on);
-    let expected = [on(Switch::Diagram, true), on(Switch::Miniature, false), on(Switch::Clocks, true)];
+    let of_vehicle = on(Switch::DiagramOfVehicle, false);
+    let expected = [on(Switch::Diagram, true), of_vehicle, on(Switch::Miniature, false), on(Switch::Clocks, true)];
     assert_eq!(turned, expected);
 }
 
@@ -322,4 +323,42 @@ fn a_visitor_who_holds_the_ride_holds_the_tour_and_cannot_turn_its_pauses_round(
     toggle(&mut ridden);
     ridden.run(60);
     assert!(ridden.position().distance(place) < 1.0, "{} {place}", ridden.position());
+}
+
+#[test]
+fn the_bells_strike_at_once_for_the_platform_and_one_after_the_other_for_the_rider() {
+    let scene = built_in::train::build();
+    let mut ridden = Ridden::new(built_in("bells").unwrap(), &scene, Arc::new(Collision::new(&scene).unwrap()));
+    let (mut bells, mut middle_ct, mut seen) = (Vec::new(), f64::NAN, Vec::new());
+    while ridden.player.question().is_none() {
+        let ct = ridden.ride.vehicle().state().ct;
+        let known = ridden.changes.len();
+        ridden.go();
+        for change in &ridden.changes[known..] {
+            if let TourChange::Mark(event) = change {
+                bells.push((event.position, ct + 30.0 * event.after_s));
+            }
+        }
+        let frame = ridden.last.as_ref().unwrap();
+        let eye = frame.gaze.observer.event;
+        if middle_ct.is_nan() && eye.position.x >= 0.0 {
+            middle_ct = eye.ct;
+        }
+        for (number, (position, bell_ct)) in bells.iter().enumerate() {
+            if !seen.contains(&number) && eye.ct - bell_ct >= position.distance(eye.position) {
+                seen.push(number);
+                assert_eq!(ridden.player.station(), [2, 3][number], "the caption tells what is seen");
+            }
+        }
+    }
+    let [(ahead, ct), (behind, same)] = bells[..] else { panic!("{bells:?}") };
+    assert!(ct == same && ahead.x == -behind.x && seen == [0, 1], "{bells:?} {seen:?}");
+    // They strike as the rider passes the middle, to a metre.
+    assert!((ct - middle_ct).abs() < 1.5, "{ct} {middle_ct}");
+    // t' = γ (t − β x): the one ahead is earlier by 2 γ β · 54 m of light travel.
+    let observer = ridden.last.as_ref().unwrap().gaze.observer;
+    let (gamma, beta) = (observer.celerity.gamma(), observer.celerity.beta().vector().x);
+    assert!((0.65..0.75).contains(&beta), "{beta}");
+    let own = |place: DVec3| gamma * (ct - beta * place.x);
+    assert!(own(behind) - own(ahead) > 100.0 * gamma * beta);
 }
