@@ -1,0 +1,244 @@
+//! The cost of what explains a ride: display, menu, map and diagram, in a window and in a room of four walls for two
+//! eyes, on the default path.
+//!
+//! A cyclist rides through the old town for a minute; the frames after it are drawn with and without the interface, in
+//! turns, so that other load on the machine affects both alike. Everything is open at once, and the readings change
+//! from frame to frame, so every picture of the interface is drawn anew.
+//!
+//! `cargo bench -p rapidity --bench interface`, or with words after `--`: a size of the window, as in `640x360`;
+//! `side=320`: pixels of a wall; `10s`: seconds for each table.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a benchmark prints its figures")]
+
+mod support;
+
+use cabin::{Guide, RoomInterface, Shown};
+use input::{DeskConfig, SECOND};
+use interface::{DrawnSheet, MenuPage, MenuRide, Readings, SheetPointer};
+use presentation::Presentation;
+use render::display::Development;
+use render::picture::SCREEN_FORMAT;
+use render::target::texture;
+use render::{Gpu, SceneRenderer};
+use ride::{LightSpeed, RideFrame, RideStart, Setup, Simulation, Tour, VehicleSettings};
+use room::Display;
+use scene::Scene;
+use scene::collision::Collision;
+use std::error::Error;
+use std::sync::Arc;
+use std::time::Duration;
+use support::default_path::{self, DefaultPath};
+use support::figures::{commit, processor};
+use support::frame_times::{FrameTimes, rounds, turn};
+use support::words::Words;
+use view::{Effects, Occasion};
+use walls::{FlatPicture, Occupant, Quality, RoomHead, Walls};
+
+/// Number of frames drawn in one way before the other has its turn.
+const FRAMES: usize = 6;
+/// Time for which each table is measured, seconds.
+const SECONDS: f64 = 30.0;
+/// Side of a wall, pixels.
+const SIDE: u32 = 320;
+/// Vertical field of view of the window, degrees.
+const FOV_DEG: f64 = 60.0;
+/// Frames per second of the ride, and the time that is ridden before any is drawn, seconds.
+const RATE: u64 = 30;
+const BEFORE_S: u64 = 60;
+/// Frames after which the ride's end is shown again.
+const WAY: usize = 32;
+const WORDS: &str = "a size, as in 640x360, side=N, and seconds, as in 10s";
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut words = Words::given();
+    let size = words.size().unwrap_or([1280, 720]);
+    let side = words.list("side")?.first().copied().unwrap_or(SIDE).clamp(1, 8192);
+    let seconds = Duration::from_secs_f64(words.seconds().unwrap_or(SECONDS));
+    words.end(WORDS)?;
+
+    let gpu = Gpu::new()?;
+    println!("commit {}, {}, {}", commit(), processor(), gpu.description());
+    let scene = default_path::scene("town")?;
+    let frames = ridden(&scene)?;
+    let default = DefaultPath::of(&gpu, &scene)?;
+    println!("{}, menu, map, diagram and display; ratio to the same frames without", default.name());
+
+    for (name, place) in
+        [(format!("window of {} x {}", size[0], size[1]), None), (format!("cave4, walls of {side}"), Some(side))]
+    {
+        let mut bench = Bench::new(&gpu, &scene, &frames, default, (size, place))?;
+        let (mut without, mut with) = (FrameTimes::default(), FrameTimes::default());
+        rounds(seconds, |counts| {
+            for (explains, times) in [(false, &mut without), (true, &mut with)] {
+                let took = turn(FRAMES, || bench.frame(&gpu, explains))?;
+                if counts {
+                    times.add(&took);
+                }
+            }
+            Ok::<_, Box<dyn Error>>(())
+        })?;
+        println!("\n{name}\n{}\n{}", without.line("without", &without), with.line("with", &without));
+    }
+    Ok(())
+}
+
+/// Frames at the end of a ride round the town.
+fn ridden(scene: &Scene) -> Result<Vec<RideFrame>, Box<dyn Error>> {
+    let setup = Setup {
+        light_speed: LightSpeed::OLD_TOWN,
+        kind: input::VehicleKind::Bicycle,
+        start: RideStart::at_rest(scene.start.position, scene.start.look, scene.start.up),
+        vehicle: VehicleSettings::default(),
+        desk: DeskConfig::default(),
+    };
+    let mut cyclist = Tour::new(&scene.circuit, &setup.desk.bicycle).ok_or("the town has no circuit")?;
+    let mut simulation = Simulation::new(setup, Arc::new(Collision::new(scene)?))?;
+    let frame = |number: u64| {
+        let at = number * SECOND / RATE;
+        let samples = cyclist.samples(simulation.vehicle(), at);
+        simulation.frame(at, &samples)
+    };
+    Ok((0..BEFORE_S * RATE + WAY as u64).map(frame).collect())
+}
+
+/// Target of the frames.
+enum Target {
+    Window(Box<FlatPicture>, Box<DrawnSheet>),
+    Room(Box<Walls>, Box<RoomInterface>),
+}
+
+/// One place in which a ride is shown.
+struct Bench<'a> {
+    frames: &'a [RideFrame],
+    renderer: SceneRenderer,
+    target: Target,
+    screens: Vec<wgpu::TextureView>,
+    guide: Guide,
+    page: MenuPage,
+    shown: Presentation,
+    number: usize,
+}
+
+impl<'a> Bench<'a> {
+    /// A window of a size, or a room with walls of so many pixels.
+    fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        frames: &'a [RideFrame],
+        default: DefaultPath,
+        (size, side): ([u32; 2], Option<u32>),
+    ) -> Result<Self, Box<dyn Error>> {
+        let DefaultPath { dial, format, effects } = default;
+        let mut sizes = vec![size];
+        let target = match side {
+            None => {
+                let picture = FlatPicture::new(gpu, size, format, SCREEN_FORMAT, dial.map_scale.unwrap_or(1.0));
+                let sheet = DrawnSheet::new(gpu, size.map(|side| side as f32), 1.0);
+                Target::Window(Box::new(picture), Box::new(sheet))
+            }
+            Some(side) => {
+                let mut display = Display::built_in("cave4")?;
+                let wall = display.channels[0].viewport[2];
+                let scaled = |pixels: u32| pixels * side / wall;
+                for channel in &mut display.channels {
+                    channel.viewport = channel.viewport.map(scaled);
+                }
+                display.windows.iter_mut().for_each(|window| window.size = window.size.map(scaled));
+                sizes = display.windows.iter().map(|window| window.size).collect();
+                let interface = RoomInterface::new(gpu, &display);
+                let quality = Quality { format, samples: 1, density: 1.0, smooth: true };
+                Target::Room(Box::new(Walls::new(gpu, display, quality, SCREEN_FORMAT)), Box::new(interface))
+            }
+        };
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        let mut guide = Guide::new(scene);
+        let shown = Presentation { effects, menu: true, miniature: true, diagram: true, ..Presentation::default() };
+        frames.iter().for_each(|frame| guide.note(frame, &shown, 1.5));
+        Ok(Self {
+            frames,
+            renderer: SceneRenderer::new(gpu, scene.clone(), format, None, dial, Occasion::Ride)?,
+            target,
+            screens: sizes.into_iter().map(|size| texture(gpu, "screen", size, SCREEN_FORMAT, 1, usage)).collect(),
+            guide,
+            page: MenuPage::Ride,
+            shown,
+            number: 0,
+        })
+    }
+
+    /// Draws a frame, with the interface if it `explains`.
+    fn frame(&mut self, gpu: &Gpu, explains: bool) -> Result<(), Box<dyn Error>> {
+        self.number += 1;
+        let frame = &self.frames[self.frames.len() - WAY + self.number % WAY];
+        let development = Development::default();
+        let effects: Effects = self.shown.effects;
+        let odometer = frame.vehicle.odometer();
+        let celerity = frame.gaze.observer.celerity;
+        let readings = Readings {
+            beta: celerity.beta().vector().length(),
+            gamma: celerity.gamma(),
+            rapidity: celerity.rapidity(),
+            speed_of_light: LightSpeed::OLD_TOWN.speed_of_light_m_s(),
+            own_clock_s: odometer.own_s,
+            world_clock_s: odometer.world_s,
+            road_m: odometer.road_m,
+            own_m: odometer.own_m,
+            ..Readings::default()
+        };
+        let menu = MenuRide {
+            speed_of_light: readings.speed_of_light,
+            time_scale: 1.0,
+            places: self.guide.places(self.shown.language),
+            overlaps: true,
+            is_flat: true,
+            ..MenuRide::default()
+        };
+        if explains {
+            self.guide.note(frame, &self.shown, 1.5);
+        }
+        let clocks = if explains { self.guide.wanted_clocks(frame, &self.shown) } else { Vec::new() };
+        let now_s = self.number as f64 / RATE as f64;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        match &mut self.target {
+            Target::Window(picture, sheet) => {
+                let shot = frame.gaze.shot(FOV_DEG, effects);
+                let pending = self.renderer.submit(gpu, &shot.observer, effects)?;
+                picture.draw(gpu, &mut self.renderer, &shot, pending)?;
+                picture.adapt(gpu, &development, Some(0.03));
+                picture.show(gpu, &mut encoder, &development, &self.screens[0]);
+                if explains {
+                    let (shown, guide, page) = (&self.shown, &self.guide, &mut self.page);
+                    sheet.draw(gpu, now_s, (SheetPointer::default(), &[]), |ui| {
+                        interface::show_readings(ui, &readings);
+                        guide.show(ui, shown, &clocks);
+                        interface::menu_window(ui, page, shown, &menu);
+                    });
+                }
+            }
+            Target::Room(walls, interface) => {
+                let (vehicle, thrust) = (*frame.vehicle.state(), *frame.vehicle.thrust());
+                let occupant = Occupant { vehicle, thrust, head: RoomHead::at_rest(walls.display.viewer.head_m) };
+                let submitted = walls.submit(gpu, &mut self.renderer, &occupant, effects)?;
+                walls.draw(gpu, &mut self.renderer, submitted)?;
+                walls.adapt(gpu, &development, Some(0.03));
+                walls.sheets.clear();
+                if explains {
+                    let shown = Shown {
+                        presentation: &self.shown,
+                        readings: &readings,
+                        menu: Some(&menu),
+                        caption: None,
+                        clocks: &clocks,
+                        keys: &[],
+                        now_s,
+                    };
+                    (walls.sheets, _) = interface.draw(gpu, &shown, &self.guide, &mut self.page, None);
+                }
+                for (window, screen) in self.screens.iter().enumerate() {
+                    walls.show_window(gpu, &mut encoder, window, &development, screen, [0, 0]);
+                }
+            }
+        }
+        gpu.queue.submit([encoder.finish()]);
+        Ok(gpu.wait()?)
+    }
+}
