@@ -49,6 +49,16 @@ const KEYS: [(&str, Phrase); 31] = [
     ("Esc", Phrase::KeyLeave),
 ];
 
+/// Name of a key as it is written on a keyboard of this language.
+pub fn cap(key: &'static str, language: Language) -> &'static str {
+    match key {
+        "Shift" => language.text(Phrase::ShiftKey),
+        "Space" => language.text(Phrase::SpaceKey),
+        "Backspace" => language.text(Phrase::BackspaceKey),
+        key => key,
+    }
+}
+
 /// Keys that do nothing in a kiosk.
 const NOT_IN_KIOSK: [&str; 6] = ["C  F8", "V", "F3", "F4", "F11", "Esc"];
 
@@ -81,7 +91,7 @@ pub fn show(ui: &Ui, language: Language, kiosk: bool) -> bool {
                 let high = rows.len().div_ceil(columns);
                 for number in 0..high {
                     for (keys, meaning) in rows.iter().skip(number).step_by(high) {
-                        ui.label(RichText::new(*keys).monospace().strong());
+                        ui.label(RichText::new(cap(keys, language)).monospace().strong());
                         ui.label(language.text(*meaning));
                     }
                     ui.end_row();

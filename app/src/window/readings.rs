@@ -4,6 +4,7 @@ use crate::frame::RideInProgress;
 use input::Place;
 use interface::{MenuRide, Readings};
 use render::Gpu;
+use room::EyeBehind;
 use words::{Language, Phrase};
 
 /// Readings for the head-up display.
@@ -15,8 +16,10 @@ pub fn readings(ride: &RideInProgress, language: Language, kiosk: bool) -> Readi
     if ride.not_finite > 0 {
         notices.push(language.fill(Phrase::PointsLost, &[&ride.not_finite]));
     }
-    notices.extend(ride.behind.clone());
-    notices.extend(ride.certainty.notice());
+    notices.extend(ride.behind.as_ref().map(|(channel, EyeBehind { eye_m, distance_m })| {
+        language.fill(Phrase::ChannelBlack, &[channel, eye_m, &format!("{:.3}", -distance_m)])
+    }));
+    notices.extend(interface::uncertainty(&ride.certainty, language));
     if frame.time_scale != 1.0 {
         notices.push(language.fill(Phrase::ClockRuns, &[&format!("{:.2}", frame.time_scale)]));
     }
@@ -30,8 +33,8 @@ pub fn readings(ride: &RideInProgress, language: Language, kiosk: bool) -> Readi
         road_m: odometer.road_m,
         own_m: odometer.own_m,
         frame_rate: ride.times.frame_rate(),
-        stages_ms: ride.times.stages_ms(),
-        certainty: accuracy(ride),
+        stages_ms: ride.times.stages_ms(language),
+        certainty: accuracy(ride, language),
         notices,
         invitation: ride.live.invites().then(|| language.text(Phrase::Invitation).to_owned()),
         language,
@@ -42,25 +45,23 @@ pub fn readings(ride: &RideInProgress, language: Language, kiosk: bool) -> Readi
 }
 
 /// Error of directions in the picture, and its resolution if that is less than the window's.
-fn accuracy(ride: &RideInProgress) -> String {
-    let error = ride.certainty.reading();
-    if ride.share < 0.995 { format!("{error} · drawn at {:.0} %", 100.0 * ride.share) } else { error }
+fn accuracy(ride: &RideInProgress, language: Language) -> String {
+    let error = interface::accuracy(&ride.certainty, language);
+    let percent = format!("{:.0}", 100.0 * ride.share);
+    if ride.share < 0.995 { language.fill(Phrase::DrawnAt, &[&error, &percent]) } else { error }
 }
 
 /// State of the ride that the menu shows. `in_step`: sentence on the windows, if there are several.
 pub fn menu(
     ride: &RideInProgress,
     gpu: &Gpu,
+    language: Language,
     places: Vec<(String, Place)>,
     (is_flat, in_step): (bool, Option<String>),
 ) -> MenuRide {
     let vehicle = ride.frame.as_ref().map(|frame| &frame.vehicle);
-    let drawing = format!(
-        "{} triangles by the {} renderer on {}",
-        ride.renderer.triangle_count(),
-        ride.renderer.name(),
-        gpu.description()
-    );
+    let drawing =
+        language.fill(Phrase::DrawnBy, &[&ride.renderer.triangle_count(), &ride.renderer.name(), &gpu.description()]);
     MenuRide {
         vehicle: vehicle.map_or_else(Default::default, |vehicle| vehicle.kind()),
         time_scale: ride.frame.as_ref().map_or(1.0, |frame| frame.time_scale),

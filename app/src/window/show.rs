@@ -9,6 +9,7 @@ use cabin::Shown;
 use input::{Action, SECOND, Sample};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
+use words::Phrase;
 
 /// Time for which a turn waits for the windows' textures: several refreshes of any monitor, and less than the quarter
 /// of a second after which own time is not ridden.
@@ -58,7 +59,13 @@ impl Open {
         let has_operator = self.operator.is_some();
         let menu = (shown.menu || has_operator).then(|| {
             let places = self.guide.places(shown.language);
-            readings::menu(&self.ride, &self.gpu, places, (is_flat, self.in_step.sentence()))
+            readings::menu(
+                &self.ride,
+                &self.gpu,
+                shown.language,
+                places,
+                (is_flat, self.in_step.sentence(|values| shown.language.fill(Phrase::InStep, values))),
+            )
         });
         let [width, height] = self.windows[0].size().map(f64::from);
         if let Some(frame) = &self.ride.frame {
@@ -94,7 +101,7 @@ impl Open {
                 let size = [texture.texture.width(), texture.texture.height()];
                 self.interface.draw(&self.gpu, window, &mut encoder, &screen, size, |ui| {
                     if let Some(calibrating) = calibrating {
-                        calibrating::show(ui, calibrating);
+                        calibrating::show(ui, calibrating, shown.language);
                         return;
                     }
                     if shown.readings && is_flat {
@@ -139,7 +146,7 @@ impl Open {
             skew = first.get_or_insert_with(Instant::now).elapsed();
         }
         self.in_step.presented(skew);
-        self.ride.times.stage("show");
+        self.ride.times.stage(Phrase::StageShow);
         Ok(true)
     }
 
