@@ -25,6 +25,8 @@ const MOST_CLOCKS: usize = 3;
 pub struct Guide {
     places: Vec<NamedPlace>,
     clocks: Vec<SceneClock>,
+    /// Language of the clocks' names in the diagram.
+    language: Language,
     plan: Option<PlanPicture>,
     trail: Trail,
     diagram: DiagramView,
@@ -35,12 +37,12 @@ impl Guide {
     /// Guide of a scene, before the ride.
     pub fn new(scene: &Scene) -> Self {
         let mut trail = Trail::default();
-        let at_rest = scene.clocks.iter().filter(|clock| clock.motion.is_none());
-        let watched = at_rest.map(|clock| WatchedClock { name: clock.name.english.clone(), position: clock.position });
-        trail.watch(watched.take(MOST_CLOCKS).collect());
+        let language = Language::default();
+        trail.watch(watched(&scene.clocks, language));
         Self {
             places: scene.places.clone(),
             clocks: scene.clocks.clone(),
+            language,
             plan: PlanPicture::draw(scene, PLAN_SIDE),
             trail,
             diagram: DiagramView::default(),
@@ -50,6 +52,9 @@ impl Guide {
 
     /// Notes a frame of the ride. `aspect`: width of the picture over its height.
     pub fn note(&mut self, frame: &RideFrame, presentation: &Presentation, aspect: f64) {
+        if std::mem::replace(&mut self.language, presentation.language) != presentation.language {
+            self.trail.watch(watched(&self.clocks, self.language));
+        }
         self.trail.note(frame);
         self.diagram.frame = if presentation.diagram_of_vehicle { DiagramFrame::Vehicle } else { DiagramFrame::World };
         self.diagram.follow(&self.trail);
@@ -145,6 +150,14 @@ impl Guide {
     fn diagram(&self, ui: &Ui, area: Rect, language: Language) {
         diagram(ui.painter(), area, &self.trail, &self.diagram, instrument_words(language));
     }
+}
+
+/// Clocks whose light the diagram shows: the first ones that rest.
+fn watched(clocks: &[SceneClock], language: Language) -> Vec<WatchedClock> {
+    let at_rest = clocks.iter().filter(|clock| clock.motion.is_none()).take(MOST_CLOCKS);
+    let watched =
+        |clock: &SceneClock| WatchedClock { name: name(&clock.name, language).to_owned(), position: clock.position };
+    at_rest.map(watched).collect()
 }
 
 /// Texts of the instruments in a language.
