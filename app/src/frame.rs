@@ -19,9 +19,11 @@ use presentation::{Latency, Presentation};
 use render::certainty::Certainty;
 use render::{Gpu, SceneRenderer};
 use ride::RideFrame;
+use room::EyeBehind;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 use walls::{Drawing, Governor, PictureShares};
+use words::Phrase;
 
 /// Time that a frame may take at rest: less than the quarter of a second after which own time is not ridden.
 const STILL: Duration = Duration::from_millis(120);
@@ -44,8 +46,8 @@ pub struct RideInProgress {
     pub frame: Option<RideFrame>,
     /// Vertices without a finite apparent position in the picture drawn last.
     pub not_finite: usize,
-    /// Channel whose eye is behind its screen, as a sentence.
-    pub behind: Option<String>,
+    /// Channel whose eye is behind its screen.
+    pub behind: Option<(String, EyeBehind)>,
     /// Errors of directions in the picture drawn last.
     pub certainty: Certainty,
     /// Times of the stages of a frame.
@@ -117,7 +119,7 @@ impl RideInProgress {
         let elapsed_s = self.frame.as_ref().map(|before| elapsed_s(before, &frame));
         let actions = frame.controls.actions.clone();
         self.frame = Some(frame);
-        self.times.stage("ride");
+        self.times.stage(Phrase::StageRide);
 
         // Observer to photo-surfaces, on their own thread. The frame shown is this one, or with overlap the one
         // before it.
@@ -131,15 +133,15 @@ impl RideInProgress {
             self.under_way.push_back(again);
         }
         let oldest = self.under_way.pop_front().expect("this frame was pushed");
-        self.times.stage("submit");
+        self.times.stage(Phrase::StageSubmit);
 
         // Photo-surfaces to light.
         let drawn = canvas.draw(gpu, &mut self.renderer, oldest)?;
         self.times.transformed(drawn.transform);
         self.not_finite = drawn.not_finite;
         self.certainty = drawn.certainty;
-        self.behind = drawn.behind.first().map(|(channel, behind)| format!("{channel} is black: {behind}"));
-        self.times.stage("draw");
+        self.behind = drawn.behind.into_iter().next();
+        self.times.stage(Phrase::StageDraw);
         self.govern(canvas);
 
         // The viewer adapts to it. Windows show it: window/show.rs.

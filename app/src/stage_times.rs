@@ -1,6 +1,7 @@
 //! Timing of the stages of a frame, smoothed for reading.
 
 use std::time::{Duration, Instant};
+use words::{Language, Phrase};
 
 /// Share of the older value in the smoothed one, per frame.
 const KEPT: f64 = 0.9;
@@ -11,7 +12,7 @@ pub struct StageTimes {
     began: Option<Instant>,
     stage_began: Option<Instant>,
     frame_ms: f64,
-    stages: Vec<(&'static str, f64)>,
+    stages: Vec<(Phrase, f64)>,
 }
 
 impl StageTimes {
@@ -26,7 +27,7 @@ impl StageTimes {
     }
 
     /// Marks the end of the stage `name`; the next stage begins.
-    pub fn stage(&mut self, name: &'static str) {
+    pub fn stage(&mut self, name: Phrase) {
         let now = Instant::now();
         if let Some(began) = self.stage_began.replace(now) {
             self.note(name, now - began);
@@ -35,10 +36,10 @@ impl StageTimes {
 
     /// Records the time of the transform, which runs in parallel with the other stages.
     pub fn transformed(&mut self, duration: Duration) {
-        self.note("transform", duration);
+        self.note(Phrase::StageTransform, duration);
     }
 
-    fn note(&mut self, name: &'static str, duration: Duration) {
+    fn note(&mut self, name: Phrase, duration: Duration) {
         let milliseconds = duration.as_secs_f64() * 1e3;
         match self.stages.iter_mut().find(|stage| stage.0 == name) {
             Some(stage) => stage.1 = mixed(stage.1, milliseconds),
@@ -52,8 +53,8 @@ impl StageTimes {
     }
 
     /// Name and duration of each stage, milliseconds.
-    pub fn stages_ms(&self) -> Vec<(&'static str, f64)> {
-        self.stages.clone()
+    pub fn stages_ms(&self, language: Language) -> Vec<(&'static str, f64)> {
+        self.stages.iter().map(|(name, ms)| (language.text(*name), *ms)).collect()
     }
 }
 

@@ -40,6 +40,8 @@ pub struct Guide {
     places: Vec<NamedPlace>,
     start: DVec3,
     clocks: Vec<SceneClock>,
+    /// Language of the clocks' names in the diagram.
+    language: Language,
     plan: Option<PlanPicture>,
     trail: Trail,
     diagram: DiagramView,
@@ -51,12 +53,12 @@ impl Guide {
     /// Guide of a scene, before the ride.
     pub fn new(scene: &Scene) -> Self {
         let mut trail = Trail::default();
-        let at_rest = scene.clocks.iter().filter(|clock| clock.motion.is_none());
-        let watched = at_rest.map(|clock| WatchedClock { name: clock.name.english.clone(), position: clock.position });
-        trail.watch(watched.take(MOST_CLOCKS).collect());
+        let language = Language::default();
+        trail.watch(watched(&scene.clocks, language));
         Self {
             places: scene.places.clone(),
             clocks: scene.clocks.clone(),
+            language,
             plan: PlanPicture::draw(scene, PLAN_SIDE),
             trail,
             diagram: DiagramView::default(),
@@ -68,6 +70,9 @@ impl Guide {
 
     /// Notes a frame of the ride. `aspect`: width of the picture over its height.
     pub fn note(&mut self, frame: &RideFrame, presentation: &Presentation, aspect: f64) {
+        if std::mem::replace(&mut self.language, presentation.language) != presentation.language {
+            self.trail.watch(watched(&self.clocks, self.language));
+        }
         self.trail.note(frame);
         self.journey = self.journey_ahead(frame);
         self.diagram.frame = if presentation.diagram_of_vehicle { DiagramFrame::Vehicle } else { DiagramFrame::World };
@@ -231,6 +236,14 @@ impl Guide {
     fn diagram(&self, ui: &Ui, area: Rect, language: Language) {
         diagram(ui.painter(), area, &self.trail, &self.diagram, instrument_words(language));
     }
+}
+
+/// Clocks whose light the diagram shows: the first ones that rest.
+fn watched(clocks: &[SceneClock], language: Language) -> Vec<WatchedClock> {
+    let at_rest = clocks.iter().filter(|clock| clock.motion.is_none()).take(MOST_CLOCKS);
+    let watched =
+        |clock: &SceneClock| WatchedClock { name: name(&clock.name, language).to_owned(), position: clock.position };
+    at_rest.map(watched).collect()
 }
 
 /// Texts of the instruments in a language.

@@ -54,27 +54,27 @@ const KEYS: [(&str, Phrase); 32] = [
     ("Esc", Phrase::KeyLeave),
 ];
 
+/// Name of a key as it is written on the keyboards of this language. Keys are known by their place.
+pub fn cap(key: &'static str, language: Language) -> &'static str {
+    match (key, language) {
+        ("Shift", _) => language.text(Phrase::ShiftKey),
+        ("Space", _) => language.text(Phrase::SpaceKey),
+        ("Backspace", _) => language.text(Phrase::BackspaceKey),
+        ("Enter", _) => language.text(Phrase::EnterKey),
+        ("Y  F5  F9", Language::German) => "Z  F5  F9",
+        ("Z  F6", Language::German) => "Y  F6",
+        ("− =", Language::German) => "ß ´",
+        ("[ ]", Language::German) => "Ü +",
+        (key, _) => key,
+    }
+}
+
 /// Keys that do nothing in a kiosk.
 const NOT_IN_KIOSK: [&str; 6] = ["C  F8", "V", "F3", "F4", "F11", "Esc"];
 
 /// Rows of keys and their meanings.
 fn rows(kiosk: bool) -> Vec<(&'static str, Phrase)> {
     KEYS.into_iter().filter(|(keys, _)| !kiosk || !NOT_IN_KIOSK.contains(keys)).collect()
-}
-
-/// Labels of keys as they stand on the keyboards of a language. Keys are known by their place.
-fn labels(keys: &'static str, language: Language) -> &'static str {
-    match (language, keys) {
-        (Language::German, "Y  F5  F9") => "Z  F5  F9",
-        (Language::German, "Z  F6") => "Y  F6",
-        (Language::German, "− =") => "ß ´",
-        (Language::German, "[ ]") => "Ü +",
-        (Language::German, "Space") => "Leertaste",
-        (Language::German, "Backspace") => "Rücktaste",
-        (Language::German, "Shift") => "Umschalt",
-        (Language::German, "Enter") => "Eingabe",
-        (_, keys) => keys,
-    }
 }
 
 /// What must be known first.
@@ -96,7 +96,7 @@ fn keys(ui: &mut Ui, language: Language, rows: &[(&'static str, Phrase)], column
         let high = rows.len().div_ceil(columns);
         for number in 0..high {
             for (keys, meaning) in rows.iter().skip(number).step_by(high) {
-                ui.label(RichText::new(labels(keys, language)).monospace().strong());
+                ui.label(RichText::new(cap(keys, language)).monospace().strong());
                 ui.label(language.text(*meaning));
             }
             ui.end_row();

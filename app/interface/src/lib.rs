@@ -22,8 +22,8 @@ pub use caption::{
 };
 pub use clock_table::{ClockRow, show as show_clocks};
 pub use drawn_sheet::{DrawnSheet, FORMAT as SHEET_FORMAT, SheetPointer, key_events};
-pub use help::{sheet as help_sheet, show as show_help};
+pub use help::{cap, sheet as help_sheet, show as show_help};
 pub use hud::{Readings, pace_line, show as show_readings, speed_line};
 pub use menu::{MenuPage, sheet as menu_sheet, show as menu_contents, window as menu_window};
 pub use menu_ride::MenuRide;
-pub use notices::notice;
+pub use notices::{accuracy, log_fault, notice, replay_fault, uncertainty};

@@ -222,36 +222,36 @@ impl Certainty {
         if self.pixel_rad > 0.0 { self.error_rad() / self.pixel_rad } else { 0.0 }
     }
 
-    /// Sum of both errors as text, in arcminutes or a unit that fits.
-    pub fn reading(&self) -> String {
-        format!("±{}", arcminutes(self.error_rad()))
+    /// Sum of both errors as text, in arcminutes or a unit that fits. `units`: names of arcminute and arcsecond.
+    pub fn about(&self, [arcmin, arcsec]: [&str; 2]) -> String {
+        match self.error_rad().to_degrees() * 60.0 {
+            minutes if minutes >= 120.0 => format!("{:.0}°", minutes / 60.0),
+            minutes if minutes >= 10.0 => format!("{minutes:.0} {arcmin}"),
+            minutes if minutes >= 0.1 => format!("{minutes:.1} {arcmin}"),
+            minutes => format!("{:.1} {arcsec}", 60.0 * minutes),
+        }
     }
 
-    /// Notice for a picture whose error is above `NOTICED_PX`.
-    pub fn notice(&self) -> Option<String> {
-        (self.error_px() > NOTICED_PX).then(|| self.sentence())
+    /// True for a picture whose error is above `NOTICED_PX`.
+    pub fn is_noticed(&self) -> bool {
+        self.error_px() > NOTICED_PX
+    }
+
+    /// True if rounded numbers are the larger error.
+    pub fn is_rounded(&self) -> bool {
+        self.rounded_rad > self.drawn_rad
     }
 
     /// Sentence that says how large the error is, and why.
     pub fn sentence(&self) -> String {
-        let about = arcminutes(self.error_rad());
-        if self.rounded_rad > self.drawn_rad {
+        let about = self.about(["arcmin", "arcsec"]);
+        if self.is_rounded() {
             format!("directions astern are uncertain by about {about}: 32 bits hold no more; --renderer polygon does")
         } else {
             format!(
                 "directions are uncertain by about {about}; a smaller --tolerance, --edge or a larger --map-scale helps"
             )
         }
-    }
-}
-
-/// An angle as text, in degrees, arcminutes or arcseconds.
-fn arcminutes(angle_rad: f64) -> String {
-    match angle_rad.to_degrees() * 60.0 {
-        minutes if minutes >= 120.0 => format!("{:.0}°", minutes / 60.0),
-        minutes if minutes >= 10.0 => format!("{minutes:.0} arcmin"),
-        minutes if minutes >= 0.1 => format!("{minutes:.1} arcmin"),
-        minutes => format!("{:.1} arcsec", 60.0 * minutes),
     }
 }
 
@@ -288,8 +288,8 @@ mod tests {
         let fine = refine(&coarse, 0.05).unwrap();
         let said = |scene, speed| of(scene, speed, DVec3::NEG_Z, EdgesDrawn::ByKernel);
         assert!(said(&coarse, 0.0).error_px() < 0.01);
-        assert!(said(&coarse, 5.0).notice().is_some(), "{:?}", said(&coarse, 5.0));
-        assert!(said(&fine, 0.75).notice().is_none(), "{:?}", said(&fine, 0.75));
+        assert!(said(&coarse, 5.0).is_noticed(), "{:?}", said(&coarse, 5.0));
+        assert!(!said(&fine, 0.75).is_noticed(), "{:?}", said(&fine, 0.75));
         assert!(said(&fine, 0.75).error_rad() < said(&coarse, 0.75).error_rad() / 10.0);
     }
 
@@ -298,10 +298,11 @@ mod tests {
         let scene = Lattice { count: [12, 12, 12], ..Lattice::default() }.build();
         let map = EdgesDrawn::FromMap { texels_per_pixel: 4.0 };
         let (slow, fast) = (of(&scene, 0.75, DVec3::Z, map), of(&scene, 701.0, DVec3::Z, map));
-        assert!(slow.notice().is_none() && slow.rounded_rad < 1e-4, "{slow:?}");
+        assert!(!slow.is_noticed() && slow.rounded_rad < 1e-4, "{slow:?}");
         // One rounding step of f32, enlarged 1400 times.
         assert!((1e-4..1e-2).contains(&fast.rounded_rad), "{fast:?}");
-        assert!(of(&scene, 1e6, DVec3::Z, map).notice().is_some_and(|said| said.contains("astern")));
+        let fastest = of(&scene, 1e6, DVec3::Z, map);
+        assert!(fastest.is_noticed() && fastest.sentence().contains("astern"), "{fastest:?}");
         let ahead = of(&scene, 1e6, DVec3::NEG_Z, map);
         assert!(ahead.rounded_rad < 0.1 * of(&scene, 1e6, DVec3::Z, map).rounded_rad, "{ahead:?}");
     }
@@ -310,7 +311,7 @@ mod tests {
     fn edges_half_a_metre_long_do_not_do_astern_at_gamma_701() {
         let scene = refine(&Lattice::default().build(), 0.5).unwrap();
         let fixed = of(&scene, 701.0, DVec3::Z, EdgesDrawn::ByKernel);
-        assert!(fixed.notice().is_some(), "{fixed:?}");
-        assert!(of(&scene, 701.0, DVec3::Z, EdgesDrawn::InFull).notice().is_none());
+        assert!(fixed.is_noticed(), "{fixed:?}");
+        assert!(!of(&scene, 701.0, DVec3::Z, EdgesDrawn::InFull).is_noticed());
     }
 }

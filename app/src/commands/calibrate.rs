@@ -1,5 +1,6 @@
 //! `rapidity devices --calibrate`: walks through the calibration of a bicycle, and writes its set-up file.
 
+use crate::commands::bicycle_file::{document, write};
 use crate::commands::calibrating_error::{CalibratingError, FIRST_LINE};
 use crate::error::Error;
 use crate::output::say::say;
@@ -9,14 +10,13 @@ use input::bicycle::{BicycleLineKind, BicyclePositions, RawReadings, SteadyReadi
 use input::devices::{DeviceState, Devices, DevicesConfig};
 use input::{BicycleConfig, Clock, DeskConfig, Signal};
 use picture_files::files::{WriteError, whole, writable};
-use std::io::{ErrorKind, IsTerminal, Write};
+use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
-use toml_edit::{DocumentMut, Item, Table, value};
 
 /// Time between two looks at the box.
 const INTERVAL: Duration = Duration::from_millis(100);
@@ -127,7 +127,7 @@ impl Dialogue {
     fn silent(&self) -> CalibratingError {
         let state = self.devices.status().into_iter().next().map(|status| status.state);
         let why = match (state, self.readings.last_fault()) {
-            (Some(DeviceState::Absent(why)), _) => why,
+            (Some(DeviceState::Absent(why)), _) => why.to_string(),
             (_, Some(fault)) => fault.to_owned(),
             _ => "it is silent; is the box on, and the baud rate right?".to_owned(),
         };
@@ -267,47 +267,4 @@ impl Dialogue {
 
 fn shown(reading: Option<SteadyReading>) -> String {
     reading.map_or_else(|| "silent".to_owned(), |reading| format!("{}", reading.median))
-}
-
-/// Text of the file as it is, to keep what others wrote in it; an empty one if there is none.
-fn document(file: &Path) -> Result<DocumentMut, CalibratingError> {
-    let refused = |reason: String| CalibratingError::File { file: file.display().to_string(), reason };
-    let text = match std::fs::read_to_string(file) {
-        Ok(text) => text,
-        Err(error) if error.kind() == ErrorKind::NotFound => String::new(),
-        Err(error) => return Err(refused(error.to_string())),
-    };
-    let document: DocumentMut = text
-        .parse()
-        .map_err(|error: toml_edit::TomlError| refused(error.message().lines().collect::<Vec<_>>().join(" ")))?;
-    match document.get("bicycle") {
-        Some(item) if !item.is_table_like() => Err(refused("its bicycle is no table".to_owned())),
-        _ => Ok(document),
-    }
-}
-
-/// Puts the settings into the table `[bicycle]`.
-fn write(document: &mut DocumentMut, port: &str, baud: Option<u32>, config: &BicycleConfig) {
-    let table = document.entry("bicycle").or_insert_with(|| {
-        let mut table = Table::new();
-        table
-            .decor_mut()
-            .set_prefix("# Written by `rapidity devices --calibrate`; docs/DEVICES.md explains every key.\n");
-        Item::Table(table)
-    });
-    table["port"] = value(port);
-    match baud {
-        Some(baud) => table["baud"] = value(i64::from(baud)),
-        None => drop(table.as_table_like_mut().and_then(|table| table.remove("baud"))),
-    }
-    // The text of every setting, as the reader of the file knows them.
-    let settings = toml::Table::try_from(config).unwrap_or_default();
-    for (key, setting) in settings {
-        match setting {
-            toml::Value::Float(number) => table[key.as_str()] = value(number),
-            toml::Value::String(text) => table[key.as_str()] = value(text),
-            toml::Value::Boolean(holds) => table[key.as_str()] = value(holds),
-            _ => {}
-        }
-    }
 }

@@ -18,7 +18,10 @@ use std::fmt::Write as _;
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::Ordering;
 use std::time::Duration;
+use words::Language;
 
+/// Language of the terminal.
+const LANGUAGE: Language = Language::English;
 /// Time between two readings of the devices.
 const INTERVAL: Duration = Duration::from_millis(200);
 /// Number of bytes shown of a device's last sample.
@@ -76,7 +79,7 @@ pub fn devices(options: &DevicesOptions) -> Result<(), Error> {
             let controls = desk.controls(now);
             let mut text = listing(&live.status(), &desk, &controls, now);
             if has_trainer {
-                let _ = writeln!(text, "{}", heard::trainer(desk.trainer(), now));
+                let _ = writeln!(text, "{}", heard::trainer(desk.trainer(), now, LANGUAGE));
             }
             if shown > 0 {
                 // The cursor moves back to the beginning of the last listing.
@@ -143,8 +146,9 @@ fn listing(statuses: &[DeviceStatus], desk: &Desk, controls: &Controls, now: Nan
             }
             DeviceState::Absent(why) => writeln!(text, "{:<11} {why}", source.name()),
         };
-        let note = status.note.clone();
-        for line in note.into_iter().chain(heard::bad(desk, source)).chain(heard::things(desk, source, now)) {
+        let note = status.note.map(|note| note.to_string());
+        let heard = heard::bad(desk, source, LANGUAGE).into_iter().chain(heard::things(desk, source, now, LANGUAGE));
+        for line in note.into_iter().chain(heard) {
             let _ = writeln!(text, "{:<11} {line}", "");
         }
     }

@@ -1,5 +1,6 @@
 //! The commands of the program, a file each.
 
+mod bicycle_file;
 mod calibrate;
 pub mod calibrating_error;
 mod cameraman;

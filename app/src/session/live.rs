@@ -4,64 +4,49 @@
 //! was ridden. In both cases the caller asks once per frame and gets the observer.
 
 use crate::output::say::tell;
-use crate::session::gaps::ShownTimes;
 use crate::session::lost_time::LostTime;
+use crate::session::recorded_ride::RecordedRide;
 use crate::session::tour_ride::{TourMark, TourRide};
-use hardware::heard::{self, DeviceReport};
-use input::devices::{DeviceState, Devices};
-use input::head::Tracking;
-use input::{Action, Clock, Desk, DeskConfig, Nanos, RoadLoad, SECOND, Sample, SampleSource, TrackerUrl, TrackingMode};
+use hardware::UnseenHead;
+use input::devices::{DeviceNote, DeviceState, Devices};
+use input::{Action, Clock, Nanos, RoadLoad, SECOND, Sample, SampleSource};
 use interface::Caption;
 use kiosk::Kiosk;
-use picture_files::files::unused;
-use presentation::Presentation;
-use ride::{LogError, Replay, ReplayError, Replayed, RideFrame, RideLog, Simulation};
-use std::path::Path;
-use words::{Language, Phrase};
-
-/// Time for which a notice is shown.
-const NOTICE_TIME: Nanos = 4 * SECOND;
-
-/// Most things of a tracker that the settings panel lists.
-const MOST_THINGS: usize = 6;
+use ride::{LogError, Replay, ReplayError, RideFrame, RideLog, Simulation};
+use words::Language;
 
 /// Ride in progress.
 pub struct Live {
     clock: Clock,
-    rider: Rider,
+    pub(super) rider: Rider,
     end: Option<Nanos>,
     said: Vec<Sample>,
-    told: Vec<(Nanos, String)>,
+    /// Sentences for the rider, each with its end.
+    pub(super) told: Vec<(Nanos, String)>,
     /// Own time that was not ridden because frames came too late.
-    lost: LostTime,
+    pub(super) lost: LostTime,
     /// Tour that rides, if there is one.
     tour: Option<Box<TourRide>>,
     /// Visitors, if the ride is for them.
-    kiosk: Option<Box<Kiosk>>,
+    pub(super) kiosk: Option<Box<Kiosk>>,
     /// True once another rider's turn has begun.
     turned: bool,
     /// Devices that were open at the last look.
     open: Vec<SampleSource>,
-    /// Sentence on a head that its tracker does not see, while it does not.
-    unseen: Option<String>,
-    /// Sentences on devices that are open and do not do all that they should, and the next look for more.
-    notes: (Vec<String>, Nanos),
+    /// Head that its tracker does not see, while it does not.
+    pub(super) unseen: Option<UnseenHead>,
+    /// Notes on devices that are open and do not do all that they should, and the next look for more.
+    pub(super) notes: (Vec<DeviceNote>, Nanos),
     /// Language of the sentences for the rider.
     pub language: Language,
 }
 
 /// Source of the ride's frames.
-enum Rider {
+pub(super) enum Rider {
     /// Live devices, with a simulation and a log.
     Present { simulation: Box<Simulation>, devices: Box<Devices>, log: Box<RideLog> },
     /// Recorded ride that is replayed.
-    Recorded {
-        replay: Box<Replay>,
-        next: Option<Box<(RideFrame, Nanos)>>,
-        shown: Option<Box<RideFrame>>,
-        differed: bool,
-        times: ShownTimes,
-    },
+    Recorded(Box<RecordedRide>),
 }
 
 impl Live {
@@ -73,12 +58,7 @@ impl Live {
 
     /// Creates a replay of a recorded ride that starts now. The ride ends after `seconds`, if given.
     pub fn recorded(replay: Replay, seconds: Option<f64>) -> Self {
-        let replay = Box::new(replay);
-        Self::new(
-            Rider::Recorded { replay, next: None, shown: None, differed: false, times: ShownTimes::default() },
-            Clock::start(),
-            seconds,
-        )
+        Self::new(Rider::Recorded(Box::new(RecordedRide::new(replay))), Clock::start(), seconds)
     }
 
     fn new(rider: Rider, clock: Clock, seconds: Option<f64>) -> Self {
@@ -138,26 +118,6 @@ impl Live {
         self.kiosk.as_ref().is_some_and(|kiosk| kiosk.attracts())
     }
 
-    /// Use of the tracked head, if one is tracked.
-    pub fn tracking(&self) -> Option<TrackingMode> {
-        let desk = match &self.rider {
-            Rider::Present { simulation, .. } => simulation.desk(),
-            Rider::Recorded { replay, .. } => replay.simulation().desk(),
-        };
-        desk.tracking()
-    }
-
-    /// Sentence on the use of the tracked head.
-    pub fn tracking_told(&self, language: Language) -> String {
-        let mode = match self.tracking() {
-            None => return language.text(Phrase::NoHead).to_owned(),
-            Some(TrackingMode::PositionAndVelocity) => Phrase::HeadBoth,
-            Some(TrackingMode::Position) => Phrase::HeadPlace,
-            Some(TrackingMode::None) => Phrase::HeadOff,
-        };
-        language.fill(Phrase::HeadIs, &[&language.text(mode)])
-    }
-
     /// Notes a touch of something that is no device of the ride, in a kiosk.
     pub fn touch(&mut self) {
         if let Some(kiosk) = &mut self.kiosk {
@@ -182,33 +142,9 @@ impl Live {
         self.clock.now()
     }
 
-    /// Tells the rider, once, of devices that are open and do not do all that they should. Looks once a second.
-    fn tell_notes(&mut self, now: Nanos) {
-        let Rider::Present { devices, .. } = &self.rider else {
-            return;
-        };
-        if now < self.notes.1 {
-            return;
-        }
-        let notes: Vec<String> = devices.status().into_iter().filter_map(|status| status.note).collect();
-        let before = std::mem::replace(&mut self.notes, (notes.clone(), now + SECOND)).0;
-        for note in notes.iter().filter(|note| !before.contains(note)) {
-            tell(note);
-            self.tell(note.clone());
-            self.fault(note);
-        }
-    }
-
     /// Adds a sample of the window or the panel, stamped with the present time.
     pub fn say(&mut self, sample: impl FnOnce(Nanos) -> Sample) {
         self.said.push(sample(self.clock.now()));
-    }
-
-    /// Shows a sentence to the rider.
-    pub fn tell(&mut self, sentence: impl Into<String>) {
-        let sentence = sentence.into();
-        self.told.retain(|(_, told)| *told != sentence);
-        self.told.push((self.clock.now() + NOTICE_TIME, sentence));
     }
 
     /// Present frame of the ride; `None` at its end.
@@ -244,12 +180,15 @@ impl Live {
                 devices.brake(frame.vehicle.resistance());
                 devices.load(RoadLoad { slope: frame.vehicle.slope(), brake: frame.controls.brake });
                 self.lost.add(frame.dropped_ticks, now);
-                let unseen = unseen(simulation.desk(), &frame);
+                let head = simulation.desk().head().zip(frame.controls.head.as_ref());
+                let unseen = head.and_then(|(head, state)| UnseenHead::of(head, state.tracked));
+                // Terminal and log are in English.
+                let sentence = unseen.as_ref().map(|unseen| unseen.sentence(Language::English));
                 if let Some(kiosk) = &mut self.kiosk {
-                    kiosk.head(now, unseen.as_deref());
+                    kiosk.head(now, sentence.as_deref());
                 }
                 if unseen.is_some() != self.unseen.is_some() {
-                    tell(unseen.as_deref().unwrap_or("the head is tracked"));
+                    tell(sentence.as_deref().unwrap_or("the head is tracked"));
                 }
                 self.unseen = unseen;
                 if let Err(error) = log.frame(&samples, &frame) {
@@ -258,56 +197,15 @@ impl Live {
                     if let Some(kiosk) = &mut self.kiosk {
                         kiosk.fault(&error.to_string());
                     }
-                    self.told.push((Nanos::MAX, error.to_string()));
+                    self.told.push((Nanos::MAX, interface::log_fault(&error, self.language)));
                 }
                 Some(frame)
             }
-            Rider::Recorded { replay, next, shown, differed, times } => {
-                let said = std::mem::take(&mut self.said);
-                let mut repeated = Vec::new();
-                // The frames that were ridden since the last call are simulated, and the last of them is shown.
-                let ended = loop {
-                    let (frame, due_at) = match next.take() {
-                        Some(next) => *next,
-                        None => match replay.next_frame() {
-                            Ok(Some(Replayed { frame, difference })) => {
-                                if let (Some(difference), false) = (difference, *differed) {
-                                    *differed = true;
-                                    let frame = frame.record.frame;
-                                    let sentence = ReplayError::Differs { frame, difference }.to_string();
-                                    self.told.push((Nanos::MAX, sentence));
-                                }
-                                let due_at = times.shown(frame.record.at);
-                                (frame, due_at)
-                            }
-                            Ok(None) => break true,
-                            Err(error) if shown.is_none() => return Err(error),
-                            Err(error) => {
-                                tell(error);
-                                break true;
-                            }
-                        },
-                    };
-                    let due = due_at <= now;
-                    if due || shown.is_none() {
-                        let actions = frame.controls.actions.iter().filter(|action| Presentation::repeats(action));
-                        repeated.extend(actions.cloned());
-                        *shown = Some(Box::new(frame));
-                    } else {
-                        *next = Some(Box::new((frame, due_at)));
-                    }
-                    if !due {
-                        break false;
-                    }
-                };
-                // Of the recorded rider's actions, those are performed again that decide what is shown. Actions that
-                // the onlooker asks for now follow.
-                let mut frame = if ended && next.is_none() { None } else { shown.as_deref().cloned() };
-                if let Some(frame) = &mut frame {
-                    repeated.extend(onlooker(&said));
-                    frame.controls.actions = repeated;
-                }
-                frame
+            Rider::Recorded(ride) => {
+                let step = ride.frame(now, &std::mem::take(&mut self.said))?;
+                let difference = step.difference.map(|difference| interface::replay_fault(&difference, self.language));
+                self.told.extend(difference.map(|sentence| (Nanos::MAX, sentence)));
+                step.frame
             }
         };
         self.tell_notes(now);
@@ -319,103 +217,9 @@ impl Live {
         Ok(frame)
     }
 
-    /// Sentences for the rider, the newest last.
-    pub fn told(&self) -> Vec<String> {
-        let mut told: Vec<String> = self.told.iter().map(|(_, sentence)| sentence.clone()).collect();
-        told.extend(self.unseen.clone());
-        if self.kiosk.is_none() {
-            told.extend(self.lost.notice(self.clock.now()));
-        }
-        told
-    }
-
-    /// Reports on the devices, and on the tracked head.
-    pub fn devices(&self) -> Vec<DeviceReport> {
-        let plain = |line| DeviceReport { line, details: Vec::new() };
-        let Rider::Present { simulation, devices, .. } = &self.rider else {
-            return vec![plain("a recorded ride".to_owned())];
-        };
-        let (desk, now) = (simulation.desk(), self.clock.now());
-        let mut reports: Vec<DeviceReport> =
-            devices.status().iter().map(|status| heard::report(status, desk, now, MOST_THINGS)).collect();
-        reports.extend(desk.head().map(|head| {
-            let seen = self.unseen.as_deref().unwrap_or("the head is tracked");
-            plain(format!("{seen}; {} poses rejected", head.rejected().number()))
-        }));
-        reports
-    }
-
-    /// Sentence for a rider who has asked to be straight: the outcome.
-    pub fn straightened(&self) -> &'static str {
-        let Rider::Present { simulation, .. } = &self.rider else {
-            return "a recorded head stays as it was";
-        };
-        match simulation.desk().head() {
-            None => "no head is tracked, so there is nothing to straighten; name a tracker with --tracker",
-            Some(head) if head.config().url == TrackerUrl::Mouse || head.recentres() => {
-                "your head is straight: its place and direction are the middle ones"
-            }
-            Some(_) => {
-                "this room's tracker is calibrated, so the head is not moved; recentre = \"key\" in [tracker] allows it"
-            }
-        }
-    }
-
     /// True if the ride is a recorded one.
     pub fn is_recorded(&self) -> bool {
-        matches!(self.rider, Rider::Recorded { .. })
-    }
-
-    /// True if a recording is being written.
-    pub fn is_recording(&self) -> bool {
-        matches!(&self.rider, Rider::Present { log, .. } if log.is_recording())
-    }
-
-    /// Records the ride from its beginning into `path`.
-    ///
-    /// # Errors
-    /// [`LogError`] if the file cannot be written.
-    pub fn record(&mut self, path: &Path) -> Result<(), LogError> {
-        match &mut self.rider {
-            Rider::Present { log, .. } => log.record(path),
-            Rider::Recorded { .. } => Ok(()),
-        }
-    }
-
-    /// Starts or ends a recording, and tells the rider.
-    pub fn toggle_recording(&mut self) {
-        let told = if self.is_recording() {
-            match self.stop_recording() {
-                Ok(()) if self.is_completing() => {
-                    "the recording has ended, and is being completed on the disk".to_owned()
-                }
-                Ok(()) => "the recording is complete".to_owned(),
-                Err(error) => {
-                    tell(&error);
-                    error.to_string()
-                }
-            }
-        } else {
-            let path = unused("ride", "mcap");
-            match self.record(&path) {
-                Ok(()) => format!("recording, from the ride's beginning, into {}", path.display()),
-                Err(error) => error.to_string(),
-            }
-        };
-        self.tell(told);
-    }
-
-    /// True while a recording that has ended is still being completed on the disk.
-    fn is_completing(&self) -> bool {
-        matches!(&self.rider, Rider::Present { log, .. } if log.is_completing())
-    }
-
-    /// Completes the recording, while the ride goes on.
-    fn stop_recording(&mut self) -> Result<(), LogError> {
-        match &mut self.rider {
-            Rider::Present { log, .. } => log.stop(),
-            Rider::Recorded { .. } => Ok(()),
-        }
+        matches!(self.rider, Rider::Recorded(_))
     }
 
     /// Completes the recording at the end of the ride.
@@ -423,7 +227,7 @@ impl Live {
     /// # Errors
     /// [`LogError`] if the rest cannot be written, or if a recording has failed during the ride.
     pub fn finish(&mut self) -> Result<(), LogError> {
-        self.lost.sentence().iter().for_each(tell);
+        self.lost.sentence(Language::English).iter().for_each(tell);
         if let Some(kiosk) = &mut self.kiosk {
             kiosk.finish(self.clock.now());
         }
@@ -435,7 +239,7 @@ impl Live {
                 }
                 log.finish()
             }
-            Rider::Recorded { .. } => Ok(()),
+            Rider::Recorded(_) => Ok(()),
         }
     }
 }
@@ -451,42 +255,4 @@ fn note_devices(kiosk: &mut Kiosk, devices: &Devices, before: &mut Vec<SampleSou
         kiosk.fault(&format!("{come}: the device is there"));
     }
     *before = open;
-}
-
-/// Sentence on a tracked head that is not seen, with the reason; `None` while it is seen, or if none is tracked.
-fn unseen(desk: &Desk, frame: &RideFrame) -> Option<String> {
-    let (head, state) = (desk.head()?, frame.controls.head.as_ref()?);
-    let how = match state.tracked {
-        // A head that fades may be back with the next pose.
-        Tracking::Tracked | Tracking::Fading => return None,
-        Tracking::Never => "has not been seen yet",
-        Tracking::Lost => "is lost, and rests at its last place",
-    };
-    let rejected = head.rejected();
-    let why = rejected
-        .last()
-        .map_or_else(String::new, |last| format!("; poses rejected: {}, the last: {last}", rejected.number()));
-    Some(format!("the head {how}{why}"))
-}
-
-/// Actions of a recorded ride's onlooker that concern the window alone.
-fn onlooker(said: &[Sample]) -> Vec<Action> {
-    let mut desk = Desk::new(DeskConfig::default()).expect("the default settings are sound");
-    said.iter().for_each(|sample| desk.feed(sample));
-    let actions = desk.controls(said.last().map_or(0, |sample| sample.at)).actions;
-    let of_window = |action: &Action| {
-        matches!(
-            action,
-            Action::ToggleHelp
-                | Action::Photo
-                | Action::PhotoSphere
-                | Action::ToggleFullScreen
-                | Action::ToggleCalibration
-                | Action::Leave
-                | Action::Toggle(_)
-                | Action::Set(..)
-                | Action::Next(_)
-        )
-    };
-    actions.into_iter().filter(|action| of_window(action) || Presentation::repeats(action)).collect()
 }

@@ -2,6 +2,7 @@
 
 use input::{Nanos, SECOND};
 use ride::TICKS_PER_SECOND;
+use words::{Language, Phrase};
 
 /// Own time that may be lost without a word, seconds: that of a first picture.
 const NOTICEABLE_S: f64 = 0.5;
@@ -26,19 +27,14 @@ impl LostTime {
     }
 
     /// Sentence on all that was lost, if it is noticeable.
-    pub fn sentence(&self) -> Option<String> {
+    pub fn sentence(&self, language: Language) -> Option<String> {
         let lost_s = self.ticks as f64 / f64::from(TICKS_PER_SECOND);
-        (lost_s > NOTICEABLE_S).then(|| {
-            format!(
-                "{lost_s:.1} s of your own time were not ridden: frames took longer than a quarter of a second; a \
-                 smaller picture helps"
-            )
-        })
+        (lost_s > NOTICEABLE_S).then(|| language.fill(Phrase::LostTime, &[&format!("{lost_s:.1}")]))
     }
 
     /// The same sentence, for a while after each loss.
-    pub fn notice(&self, now: Nanos) -> Option<String> {
-        self.sentence().filter(|_| now < self.newest.saturating_add(SHOWN))
+    pub fn notice(&self, now: Nanos, language: Language) -> Option<String> {
+        self.sentence(language).filter(|_| now < self.newest.saturating_add(SHOWN))
     }
 }
 
@@ -49,21 +45,23 @@ mod tests {
 
     use super::*;
 
+    const LANGUAGE: Language = Language::English;
+
     #[test]
     fn a_loss_is_shown_for_a_while_and_told_in_all_at_the_end() {
         let mut lost = LostTime::default();
         lost.add(u64::from(TICKS_PER_SECOND) / 4, SECOND);
-        assert_eq!((lost.notice(SECOND), lost.sentence()), (None, None));
+        assert_eq!((lost.notice(SECOND, LANGUAGE), lost.sentence(LANGUAGE)), (None, None));
         lost.add(u64::from(TICKS_PER_SECOND), 2 * SECOND);
-        assert!(lost.notice(11 * SECOND).unwrap().starts_with("1.2 s of your own time"));
+        assert!(lost.notice(11 * SECOND, LANGUAGE).unwrap().starts_with("1.2 s of your own time"));
         for second in 12..20 {
             // Frames that lose nothing keep no notice alive.
             lost.add(0, second * SECOND);
-            assert_eq!(lost.notice(second * SECOND), None);
+            assert_eq!(lost.notice(second * SECOND, LANGUAGE), None);
         }
         lost.add(u64::from(TICKS_PER_SECOND), 20 * SECOND);
-        assert!(lost.notice(20 * SECOND).unwrap().starts_with("2.2 s"));
-        assert_eq!(lost.notice(30 * SECOND), None);
-        assert!(lost.sentence().unwrap().starts_with("2.2 s"));
+        assert!(lost.notice(20 * SECOND, LANGUAGE).unwrap().starts_with("2.2 s"));
+        assert_eq!(lost.notice(30 * SECOND, LANGUAGE), None);
+        assert!(lost.sentence(LANGUAGE).unwrap().starts_with("2.2 s"));
     }
 }

@@ -3,6 +3,7 @@
 use super::open::Open;
 use super::photo;
 use crate::canvas::Canvas;
+use crate::error::Error;
 use crate::session::preferences::Preferences;
 use cabin::RoomInterface;
 use egui::Key;
@@ -40,19 +41,19 @@ impl Open {
                     self.ride.live.tell(told);
                 }
                 Action::NextTracking | Action::Tracking(_) => {
-                    let told = self.ride.live.tracking_told(self.presentation.language);
+                    let told = self.ride.live.tracking_told();
                     self.ride.live.tell(told);
                 }
                 Action::Photo => {
                     let development = self.presentation.development;
                     let taken = photo::take(&self.gpu, &mut self.ride.renderer, &mut self.canvas, &development);
-                    self.ride.live.tell(taken.unwrap_or_else(|error| error.to_string()));
+                    self.tell_photo(taken);
                 }
                 Action::PhotoSphere => {
                     let Some(gaze) = self.ride.frame.as_ref().map(|frame| frame.gaze) else { continue };
                     let renderer = &mut self.ride.renderer;
                     let taken = photo::take_sphere(&self.gpu, renderer, self.format, &gaze, &self.presentation);
-                    self.ride.live.tell(taken.unwrap_or_else(|error| error.to_string()));
+                    self.tell_photo(taken);
                 }
                 Action::Focus(step) if self.presentation.menu => self.menu_keys.push(match step {
                     FocusStep::Left => Key::ArrowLeft,
@@ -101,8 +102,18 @@ impl Open {
     /// Keeps the language that the rider has chosen for the rides to come.
     fn keep_language(&mut self) {
         if let (false, Err(error)) = (self.kiosk, Preferences::save_language(self.presentation.language)) {
-            self.ride.live.tell(error.to_string());
+            let told = self.presentation.language.fill(Phrase::LanguageNotKept, &[&error]);
+            self.ride.live.tell(told);
         }
+    }
+
+    /// Tells the rider the names of a photo's files, or why there is none.
+    fn tell_photo(&mut self, taken: Result<String, Error>) {
+        let language = self.presentation.language;
+        self.ride.live.tell(match taken {
+            Ok(files) => language.fill(Phrase::PhotoSaved, &[&files]),
+            Err(error) => language.fill(Phrase::PhotoFailed, &[&error]),
+        });
     }
 }
 

@@ -5,6 +5,7 @@ use super::open::Open;
 use crate::canvas::Canvas;
 use input::{Sample, SampleSource};
 use winit::keyboard::KeyCode;
+use words::Phrase;
 
 impl Open {
     /// True while corners are being moved.
@@ -15,10 +16,7 @@ impl Open {
     /// Starts or resumes moving the corners of a room's channels.
     pub fn calibrate(&mut self) {
         let Canvas::Room(walls) = &mut self.canvas else {
-            self.ride
-                .live
-                .tell("corners can be moved only in the windows of a room: start with --display, without --preview");
-            return;
+            return self.ride.live.tell(self.presentation.language.text(Phrase::CornersNeedRoom));
         };
         let begun = || Calibrating::new(self.room.display_name.clone(), &walls.display);
         let calibrating = self.calibrating.get_or_insert_with(begun);
@@ -30,6 +28,7 @@ impl Open {
 
     /// Performs the action of a key that is pressed while corners are being moved.
     pub fn calibration_key(&mut self, code: KeyCode, repeated: bool) {
+        let language = self.presentation.language;
         let (Canvas::Room(walls), Some(calibrating)) = (&mut self.canvas, &mut self.calibrating) else { return };
         match code {
             KeyCode::F4 | KeyCode::Escape if !repeated => {
@@ -37,9 +36,9 @@ impl Open {
                 calibrating.active = false;
             }
             KeyCode::F11 if !repeated => self.fill_monitors(),
-            KeyCode::KeyS if !repeated => calibrating.save(),
+            KeyCode::KeyS if !repeated => calibrating.save(language),
             _ => {
-                for channel in calibrating.press(code, self.shift) {
+                for channel in calibrating.press(code, self.shift, language) {
                     walls.show_grid(&self.gpu, &calibrating.calibration, channel);
                 }
             }

@@ -5,6 +5,7 @@ use hardware::WINDOW;
 use room::{Display, file};
 use walls::calibration::{Calibration, CornerKey};
 use winit::keyboard::KeyCode;
+use words::{Language, Phrase};
 
 /// Corners that are being moved.
 pub struct Calibrating {
@@ -25,7 +26,7 @@ impl Calibrating {
     }
 
     /// Performs a key's action. Returns the channels whose grids it changes.
-    pub fn press(&mut self, code: KeyCode, shift: bool) -> Vec<usize> {
+    pub fn press(&mut self, code: KeyCode, shift: bool, language: Language) -> Vec<usize> {
         let Some(key) = key(code) else { return Vec::new() };
         let before = self.calibration.chosen();
         let moved = self.calibration.press(key, shift);
@@ -37,26 +38,26 @@ impl Calibrating {
             Ok(None) if before != after => vec![after.0],
             Ok(None) => Vec::new(),
             Err(error) => {
-                self.said = error.to_string();
+                self.said = cabin::corner_refused(&error, language);
                 Vec::new()
             }
         }
     }
 
     /// Writes the corners that have moved into the display's file.
-    pub fn save(&mut self) {
+    pub fn save(&mut self, language: Language) {
         let changed = self.calibration.changed();
         // A display without a name is the built-in window.
         let name = self.name.as_deref().unwrap_or(WINDOW);
         self.said = if changed.is_empty() {
-            "nothing to save: no corner has been moved".to_owned()
+            language.text(Phrase::NothingToSave).to_owned()
         } else {
             match file::save(name, &changed) {
                 Ok(path) => {
                     self.calibration.saved();
-                    format!("saved in {}", path.display())
+                    language.fill(Phrase::SavedIn, &[&path.display()])
                 }
-                Err(error) => error.to_string(),
+                Err(error) => language.fill(Phrase::NotSaved, &[&error]),
             }
         };
     }
@@ -76,19 +77,19 @@ fn key(code: KeyCode) -> Option<CornerKey> {
 }
 
 /// Keys and their meanings while corners are being moved.
-const KEYS: [(&str, &str); 5] = [
-    ("Tab", "next corner, then the next channel's; with Shift the one before"),
-    ("← → ↑ ↓", "move the corner by 1 pixel; with Shift by 10"),
-    ("Backspace", "put the corner back to its place in the file; with Shift to the viewport's corner"),
-    ("S", "save"),
-    ("F4", "leave"),
+const KEYS: [(&str, Phrase); 5] = [
+    ("Tab", Phrase::CornerNext),
+    ("← → ↑ ↓", Phrase::CornerMove),
+    ("Backspace", Phrase::CornerBack),
+    ("S", Phrase::CornerSave),
+    ("F4", Phrase::CornerLeave),
 ];
 
 /// Width and height above which a window has room for the list of keys without hiding a corner, points.
 const ROOM_FOR_KEYS: (f32, f32) = (500.0, 400.0);
 
 /// Shows the chosen corner and the keys, below the middle, so that neither a corner nor the middle is hidden.
-pub fn show(ui: &Ui, calibrating: &Calibrating) {
+pub fn show(ui: &Ui, calibrating: &Calibrating, language: Language) {
     let window = ui.ctx().content_rect().size();
     let below = 0.25 * window.y;
     let has_room = window.x > ROOM_FOR_KEYS.0 && window.y > ROOM_FOR_KEYS.1;
@@ -97,7 +98,7 @@ pub fn show(ui: &Ui, calibrating: &Calibrating) {
         |ui| {
             Frame::window(ui.style()).show(ui, |ui| {
                 ui.set_max_width(470.0_f32.min(window.x - 40.0));
-                ui.label(RichText::new(calibrating.calibration.sentence()).heading().strong());
+                ui.label(RichText::new(cabin::corner_place(&calibrating.calibration, language)).heading().strong());
                 if !calibrating.said.is_empty() {
                     ui.label(RichText::new(&calibrating.said).strong());
                 }
@@ -107,8 +108,8 @@ pub fn show(ui: &Ui, calibrating: &Calibrating) {
                 ui.separator();
                 Grid::new("calibration keys").num_columns(2).spacing([16.0, 4.0]).show(ui, |ui| {
                     for (keys, meaning) in KEYS {
-                        ui.label(RichText::new(keys).monospace().strong());
-                        ui.label(meaning);
+                        ui.label(RichText::new(interface::cap(keys, language)).monospace().strong());
+                        ui.label(language.text(meaning));
                         ui.end_row();
                     }
                 });

@@ -93,11 +93,12 @@ impl Open {
 
     /// Draws the present ride by another choice from now on.
     fn draw_by(&mut self, choice: Choice, is_told: bool) -> Result<(), Error> {
-        if is_told {
-            self.ride.live.tell(choice.because.clone());
-        }
         self.set_map_scale(choice.dial);
         self.ride.draw_by(upload(&self.gpu, choice, &self.options, self.format)?);
+        if is_told {
+            let told = self.drawing();
+            self.ride.live.tell(told);
+        }
         Ok(())
     }
 

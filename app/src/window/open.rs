@@ -204,7 +204,7 @@ impl Open {
         spinner.finish_and_clear();
         let mut ride = RideInProgress::new(renderer, begin()?, options.frame_rate.governor());
         ride.begin(&mut canvas, took);
-        let operator = options.operator.then(|| Operator::open(events, &gpu)).transpose()?;
+        let operator = options.operator.then(|| Operator::open(events, &gpu, fresh.language)).transpose()?;
         Ok(Self {
             operator,
             canvas,

@@ -19,6 +19,7 @@ use winit::dpi::PhysicalSize;
 use winit::event::WindowEvent;
 use winit::event_loop::ActiveEventLoop;
 use winit::window::{Window, WindowId};
+use words::{Language, Phrase};
 
 /// Size of the window, pixels.
 const SIZE: (u32, u32) = (980, 620);
@@ -55,9 +56,10 @@ impl Operator {
     ///
     /// # Errors
     /// A window or a surface that cannot be made.
-    pub fn open(events: &ActiveEventLoop, gpu: &Gpu) -> Result<Self, Error> {
+    pub fn open(events: &ActiveEventLoop, gpu: &Gpu, language: Language) -> Result<Self, Error> {
         let size = PhysicalSize::new(SIZE.0, SIZE.1);
-        let attributes = Window::default_attributes().with_title("Rapidity: operator").with_inner_size(size);
+        let attributes =
+            Window::default_attributes().with_title(language.text(Phrase::OperatorTitle)).with_inner_size(size);
         let window = events.create_window(attributes).map_err(|error| Error::Window(error.to_string()))?;
         let window = Arc::new(window);
         let surface = gpu.instance.create_surface(Arc::clone(&window));

@@ -13,7 +13,7 @@ use view::Gaze;
 use walls::{FlatPicture, Walls};
 
 /// Writes the picture into `photo-001.png` or the next free number, as an eye sees it that is adapted to it. For a
-/// room, writes one file for each window. Returns a sentence that names the files.
+/// room, writes one file for each window. Returns the names of the files.
 ///
 /// # Errors
 /// A lost device, or a folder that cannot be written to.
@@ -34,7 +34,7 @@ pub fn take(
 const SPHERE: (u32, u32) = (1440, 2);
 
 /// Writes a picture of all directions into `sphere-001.png` or the next free number. Its middle is where the gaze goes.
-/// Returns a sentence that names the file.
+/// Returns the name of the file.
 ///
 /// # Errors
 /// A lost device, or a folder that cannot be written to.
@@ -50,7 +50,7 @@ pub fn take_sphere(
     let picture = studio.develop(gpu, &light.texels, light.stored, &presentation.development, None)?;
     let path = unused("sphere", "png");
     save(&picture, &path)?;
-    Ok(format!("photo: {}", path.display()))
+    Ok(path.display().to_string())
 }
 
 fn take_picture(
@@ -65,7 +65,7 @@ fn take_picture(
     let picture = darkroom.develop(gpu, radiance, adaptation, development)?;
     let path = unused("photo", "png");
     save(&picture, &path)?;
-    Ok(format!("photo: {}", path.display()))
+    Ok(path.display().to_string())
 }
 
 fn take_room(
@@ -84,5 +84,5 @@ fn take_room(
         save(&picture, &path)?;
         told.push(path.display().to_string());
     }
-    Ok(format!("photo: {}", told.join(", ")))
+    Ok(told.join(", "))
 }

@@ -4,6 +4,7 @@ use super::open::Open;
 use crate::canvas::Canvas;
 use crate::frame::RideInProgress;
 use interface::{MenuRide, Readings};
+use room::EyeBehind;
 use tours::TourPlan;
 use words::{Language, Phrase};
 
@@ -16,8 +17,10 @@ pub fn readings(ride: &RideInProgress, language: Language, kiosk: bool) -> Readi
     if ride.not_finite > 0 {
         notices.push(language.fill(Phrase::PointsLost, &[&ride.not_finite]));
     }
-    notices.extend(ride.behind.clone());
-    notices.extend(ride.certainty.notice());
+    notices.extend(ride.behind.as_ref().map(|(channel, EyeBehind { eye_m, distance_m })| {
+        language.fill(Phrase::ChannelBlack, &[channel, eye_m, &format!("{:.3}", -distance_m)])
+    }));
+    notices.extend(interface::uncertainty(&ride.certainty, language));
     if frame.time_scale != 1.0 {
         notices.push(language.fill(Phrase::ClockRuns, &[&format!("{:.2}", frame.time_scale)]));
     }
@@ -31,8 +34,8 @@ pub fn readings(ride: &RideInProgress, language: Language, kiosk: bool) -> Readi
         road_m: odometer.road_m,
         own_m: odometer.own_m,
         frame_rate: ride.times.frame_rate(),
-        stages_ms: ride.times.stages_ms(),
-        certainty: accuracy(ride),
+        stages_ms: ride.times.stages_ms(language),
+        certainty: accuracy(ride, language),
         notices,
         invitation: ride.live.invites().then(|| language.text(Phrase::Invitation).to_owned()),
         language,
@@ -43,22 +46,26 @@ pub fn readings(ride: &RideInProgress, language: Language, kiosk: bool) -> Readi
 }
 
 /// Error of directions in the picture, and its resolution if that is less than the window's.
-fn accuracy(ride: &RideInProgress) -> String {
-    let error = ride.certainty.reading();
-    if ride.share < 0.995 { format!("{error} · drawn at {:.0} %", 100.0 * ride.share) } else { error }
+fn accuracy(ride: &RideInProgress, language: Language) -> String {
+    let error = interface::accuracy(&ride.certainty, language);
+    let percent = format!("{:.0}", 100.0 * ride.share);
+    if ride.share < 0.995 { language.fill(Phrase::DrawnAt, &[&error, &percent]) } else { error }
 }
 
 impl Open {
+    /// Sentence on what draws.
+    pub(super) fn drawing(&self) -> String {
+        let renderer = &self.ride.renderer;
+        let language = self.presentation.language;
+        language.fill(Phrase::DrawnBy, &[&renderer.triangle_count(), &renderer.name(), &self.gpu.description()])
+    }
+
     /// State of the ride that the menu shows.
     pub(super) fn menu(&self) -> MenuRide {
         let (ride, language) = (&self.ride, self.presentation.language);
         let vehicle = ride.frame.as_ref().map(|frame| &frame.vehicle);
-        let drawing = format!(
-            "{} triangles by the {} renderer on {}",
-            ride.renderer.triangle_count(),
-            ride.renderer.name(),
-            self.gpu.description()
-        );
+        let drawing = self.drawing();
+        let in_step = self.in_step.sentence(|values| language.fill(Phrase::InStep, values));
         let title = |plan: &TourPlan| plan.title.in_language(language.code()).to_owned();
         MenuRide {
             vehicle: vehicle.map_or_else(Default::default, |vehicle| vehicle.kind()),
@@ -74,7 +81,7 @@ impl Open {
             dial: self.dial,
             drawn_by: self.drawn_by.renderer,
             devices: ride.live.devices(),
-            drawing: [drawing].into_iter().chain(self.in_step.sentence()).collect(),
+            drawing: [drawing].into_iter().chain(in_step).collect(),
             overlaps: ride.overlaps,
             is_flat: matches!(self.canvas, Canvas::Picture(_)),
         }

@@ -10,6 +10,7 @@ use cabin::Shown;
 use input::{Action, SECOND, Sample};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
+use words::Phrase;
 
 /// Time for which a turn waits for the windows' textures: several refreshes of any monitor, and less than the quarter
 /// of a second after which own time is not ridden.
@@ -95,7 +96,7 @@ impl Open {
                 let size = [texture.texture.width(), texture.texture.height()];
                 self.interface.draw(&self.gpu, window, &mut encoder, &screen, size, |ui| {
                     if let Some(calibrating) = calibrating {
-                        calibrating::show(ui, calibrating);
+                        calibrating::show(ui, calibrating, shown.language);
                         return;
                     }
                     if shown.readings && is_flat {
@@ -140,7 +141,7 @@ impl Open {
             skew = first.get_or_insert_with(Instant::now).elapsed();
         }
         self.in_step.presented(skew);
-        self.ride.times.stage("show");
+        self.ride.times.stage(Phrase::StageShow);
         Ok(true)
     }
 

@@ -13,9 +13,6 @@ pub const LONG_STEP: f64 = 10.0;
 /// and a multiplication by it.
 const PER_PIXEL: f64 = 1e6;
 
-/// Names of the corners, in the order of [`CornerWarp::places`].
-pub const NAMES: [&str; 4] = ["upper left", "upper right", "lower right", "lower left"];
-
 /// Key that chooses or moves corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CornerKey {
@@ -147,12 +144,10 @@ impl Calibration {
         }
     }
 
-    /// Sentence that names the chosen corner and its place.
-    pub fn sentence(&self) -> String {
+    /// Channel's name and the place of the chosen corner, pixels; true if the file has the channel's corners there.
+    pub fn place(&self) -> (&str, DVec2, bool) {
         let corners = &self.channels[self.channel];
-        let DVec2 { x, y } = corners.now[self.corner];
-        let unsaved = if corners.now == corners.in_file { "" } else { ", not saved" };
-        format!("{}: {} corner at {x}, {y} pixels{unsaved}", corners.name, NAMES[self.corner])
+        (&corners.name, corners.now[self.corner], corners.now == corners.in_file)
     }
 
     fn choose(&mut self, backwards: bool) {

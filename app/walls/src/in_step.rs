@@ -8,6 +8,7 @@
 //!
 //! Nothing here knows a surface, a clock or a device: textures are of any type, and turns are counted.
 
+use std::fmt::Display;
 use std::time::Duration;
 
 /// Number of turns for which a window without a texture stops the others.
@@ -107,22 +108,16 @@ impl<T> WindowsInStep<T> {
         self.longest_skew = self.longest_skew.max(skew);
     }
 
-    /// Sentence on how well the windows keep step; `None` for a single window.
-    pub fn sentence(&self) -> Option<String> {
+    /// Sentence on how well the windows keep step; `None` for a single window. `fill`: sentence of the number of
+    /// windows, that of the frame, its skew and the longest one (milliseconds), windows left out, turns held.
+    pub fn sentence(&self, fill: impl FnOnce(&[&dyn Display; 6]) -> String) -> Option<String> {
         let count = self.windows.len();
         if count < 2 {
             return None;
         }
         let left_out = self.windows.iter().filter(|window| window.left_out).count();
-        let milliseconds = |time: Duration| time.as_secs_f64() * 1e3;
-        Some(format!(
-            "{count} windows in step: frame {} presented within {:.2} ms (at most {:.2} ms so far); {left_out} left \
-             out; {} turns held",
-            self.frames,
-            milliseconds(self.skew),
-            milliseconds(self.longest_skew),
-            self.held_turns
-        ))
+        let [skew, longest] = [self.skew, self.longest_skew].map(|time| format!("{:.2}", time.as_secs_f64() * 1e3));
+        Some(fill(&[&count, &self.frames, &skew, &longest, &left_out, &self.held_turns]))
     }
 }
 

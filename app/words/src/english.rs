@@ -240,5 +240,101 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::Planner => "Planner",
         Phrase::PlannerPurpose => "Says when to turn round and brake to come to rest at the place ahead.",
         Phrase::Start => "the start",
+        Phrase::DeviceAt => "{0}: {1} at {2} Hz",
+        Phrase::BadMessages => "{0} bad, the last: {1}",
+        Phrase::TrainerLine => "trainer {0} · {1} · {2}",
+        Phrase::NoValue => "no {0}",
+        Phrase::TurnsPerMinute => "rpm",
+        Phrase::MoreThings => "and {0} more: see rapidity devices",
+        Phrase::IsHead => "{0} (the head)",
+        Phrase::HeardAt => "{0}: {1} a second",
+        Phrase::NotSeen => "not seen",
+        Phrase::Angles => "yaw {0}° pitch {1}° roll {2}°",
+        Phrase::Held => "held: {0}",
+        Phrase::NoButton => "none",
+        Phrase::Axes => "axes {0}",
+        Phrase::HeadTracked => "the head is tracked",
+        Phrase::HeadNeverSeen => "the head has not been seen yet",
+        Phrase::HeadLost => "the head is lost, and rests at its last place",
+        Phrase::PosesRejected => "{0}; poses rejected: {1}, the last: {2}",
+        Phrase::HeadLine => "{0}; {1} poses rejected",
+        Phrase::HeadIsStraight => "your head is straight: its place and direction are the middle ones",
+        Phrase::NoHeadToStraighten => {
+            "no head is tracked, so there is nothing to straighten; name a tracker with --tracker"
+        }
+        Phrase::HeadIsCalibrated => {
+            "this room's tracker is calibrated, so the head is not moved; recentre = \"key\" in [tracker] allows it"
+        }
+        Phrase::RecordedHeadStays => "a recorded head stays as it was",
+        Phrase::RecordedRide => "a recorded ride",
+        Phrase::RecordingInto => "recording, from the ride's beginning, into {0}",
+        Phrase::RecordingEnds => "the recording has ended, and is being completed on the disk",
+        Phrase::RecordingComplete => "the recording is complete",
+        Phrase::NotRecorded => "the ride is not recorded: {0}",
+        Phrase::NotRemembered => {
+            "the ride so far is no longer remembered ({0}), so it cannot be recorded; start the program with --record \
+             FILE"
+        }
+        Phrase::RecordingCut => "{0}: the ride was not recorded to its end",
+        Phrase::ReplayDiffers => {
+            "the replay differs from the recording in frame {0}: {1} was {2}, is {3}; was it recorded with this \
+             version, and is the scene the same?"
+        }
+        Phrase::LostTime => {
+            "{0} s of your own time were not ridden: frames took longer than a quarter of a second; a smaller picture \
+             helps"
+        }
+        Phrase::PhotoFailed => "no photo: {0}",
+        Phrase::LanguageNotKept => "the language is not kept: {0}",
+        Phrase::ChannelBlack => {
+            "{0} is black: the eye at {1} m is {2} m behind the screen's plane; turn the screen round or move the \
+             head before it"
+        }
+        Phrase::DirectionsUncertain => {
+            "directions are uncertain by about {0}; a smaller --tolerance, --edge or a larger --map-scale helps"
+        }
+        Phrase::AsternUncertain => {
+            "directions astern are uncertain by about {0}: 32 bits hold no more; --renderer polygon does"
+        }
+        Phrase::Arcminutes => "arcmin",
+        Phrase::Arcseconds => "arcsec",
+        Phrase::DrawnAt => "{0} · drawn at {1} %",
+        Phrase::DrawnBy => "{0} triangles by the {1} renderer on {2}",
+        Phrase::InStep => {
+            "{0} windows in step: frame {1} presented within {2} ms (at most {3} ms so far); {4} left out; {5} turns \
+             held"
+        }
+        Phrase::OperatorTitle => "Rapidity: operator",
+        Phrase::StageRide => "ride",
+        Phrase::StageSubmit => "submit",
+        Phrase::StageTransform => "transform",
+        Phrase::StageDraw => "draw",
+        Phrase::StageShow => "show",
+        Phrase::CornersNeedRoom => {
+            "corners can be moved only in the windows of a room: start with --display, without --preview"
+        }
+        Phrase::CornerAt => "{0}: {1} corner at {2}, {3} pixels",
+        Phrase::CornerUnsaved => "{0}, not saved",
+        Phrase::UpperLeft => "upper left",
+        Phrase::UpperRight => "upper right",
+        Phrase::LowerRight => "lower right",
+        Phrase::LowerLeft => "lower left",
+        Phrase::MeasuredWarp => "channel {0} has a measured warp, so its corners cannot be moved",
+        Phrase::NotConvex => {
+            "channel {0}: the corners make no convex quadrilateral in the order upper left, upper right, lower right, \
+             lower left"
+        }
+        Phrase::NothingToSave => "nothing to save: no corner has been moved",
+        Phrase::SavedIn => "saved in {0}",
+        Phrase::NotSaved => "not saved: {0}",
+        Phrase::CornerNext => "next corner, then the next channel's; with Shift the one before",
+        Phrase::CornerMove => "move the corner by 1 pixel; with Shift by 10",
+        Phrase::CornerBack => "put the corner back to its place in the file; with Shift to the viewport's corner",
+        Phrase::CornerSave => "save",
+        Phrase::CornerLeave => "leave",
+        Phrase::ShiftKey => "Shift",
+        Phrase::SpaceKey => "Space",
+        Phrase::BackspaceKey => "Backspace",
+        Phrase::EnterKey => "Enter",
     }
 }

@@ -253,5 +253,107 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::Planner => "Reiseplan",
         Phrase::PlannerPurpose => "Sagt, wann du umdrehen und bremsen musst, um am Ort vor dir anzuhalten.",
         Phrase::Start => "der Anfang",
+        Phrase::DeviceAt => "{0}: {1} mit {2} Hz",
+        Phrase::BadMessages => "{0} unlesbar, zuletzt: {1}",
+        Phrase::TrainerLine => "Rollentrainer {0} · {1} · {2}",
+        Phrase::NoValue => "– {0}",
+        Phrase::TurnsPerMinute => "U/min",
+        Phrase::MoreThings => "und {0} weitere: siehe rapidity devices",
+        Phrase::IsHead => "{0} (der Kopf)",
+        Phrase::HeardAt => "{0}: {1} je Sekunde",
+        Phrase::NotSeen => "nicht gesehen",
+        Phrase::Angles => "Gieren {0}° Nicken {1}° Rollen {2}°",
+        Phrase::Held => "gedrückt: {0}",
+        Phrase::NoButton => "keine",
+        Phrase::Axes => "Achsen {0}",
+        Phrase::HeadTracked => "der Kopf wird verfolgt",
+        Phrase::HeadNeverSeen => "der Kopf wurde noch nicht gesehen",
+        Phrase::HeadLost => "der Kopf ist verloren und ruht an seinem letzten Ort",
+        Phrase::PosesRejected => "{0}; verworfene Posen: {1}, zuletzt: {2}",
+        Phrase::HeadLine => "{0}; {1} Posen verworfen",
+        Phrase::HeadIsStraight => "dein Kopf ist gerade: sein Ort und seine Richtung sind die Mitte",
+        Phrase::NoHeadToStraighten => {
+            "kein Kopf wird verfolgt, also gibt es nichts gerade zu stellen; --tracker nennt einen Tracker"
+        }
+        Phrase::HeadIsCalibrated => {
+            "der Tracker dieses Raums ist eingemessen, also bleibt der Kopf, wie er ist; recentre = \"key\" in \
+             [tracker] erlaubt es"
+        }
+        Phrase::RecordedHeadStays => "ein aufgezeichneter Kopf bleibt, wie er war",
+        Phrase::RecordedRide => "eine aufgezeichnete Fahrt",
+        Phrase::RecordingInto => "Aufnahme vom Anfang der Fahrt an, in {0}",
+        Phrase::RecordingEnds => "die Aufnahme ist beendet und wird auf der Platte fertiggestellt",
+        Phrase::RecordingComplete => "die Aufnahme ist fertig",
+        Phrase::NotRecorded => "die Fahrt wird nicht aufgenommen: {0}",
+        Phrase::NotRemembered => {
+            "die bisherige Fahrt ist nicht mehr bekannt ({0}), also lässt sie sich nicht aufnehmen; das Programm mit \
+             --record DATEI starten"
+        }
+        Phrase::RecordingCut => "{0}: die Fahrt wurde nicht bis zum Ende aufgenommen",
+        Phrase::ReplayDiffers => {
+            "die Wiedergabe weicht in Bild {0} von der Aufnahme ab: {1} war {2}, ist {3}; stammt sie von dieser \
+             Version, und ist die Szene dieselbe?"
+        }
+        Phrase::LostTime => {
+            "{0} s deiner eigenen Zeit wurden nicht gefahren: Bilder brauchten länger als eine Viertelsekunde; ein \
+             kleineres Bild hilft"
+        }
+        Phrase::PhotoFailed => "kein Foto: {0}",
+        Phrase::LanguageNotKept => "die Sprache wird nicht gemerkt: {0}",
+        Phrase::ChannelBlack => {
+            "{0} ist schwarz: das Auge bei {1} m liegt {2} m hinter der Ebene der Leinwand; die Leinwand umdrehen \
+             oder den Kopf davor bringen"
+        }
+        Phrase::DirectionsUncertain => {
+            "Richtungen sind um etwa {0} unsicher; ein kleineres --tolerance oder --edge oder ein größeres \
+             --map-scale hilft"
+        }
+        Phrase::AsternUncertain => {
+            "Richtungen nach hinten sind um etwa {0} unsicher: 32 Bit fassen nicht mehr; --renderer polygon hilft"
+        }
+        Phrase::Arcminutes => "Bogenminuten",
+        Phrase::Arcseconds => "Bogensekunden",
+        Phrase::DrawnAt => "{0} · mit {1} % gezeichnet",
+        Phrase::DrawnBy => "{0} Dreiecke, Renderer {1}, auf {2}",
+        Phrase::InStep => {
+            "{0} Fenster im Gleichtakt: Bild {1} innerhalb von {2} ms gezeigt (bisher höchstens {3} ms); {4} \
+             ausgelassen; {5}-mal gewartet"
+        }
+        Phrase::OperatorTitle => "Rapidity: Bedienung",
+        Phrase::StageRide => "Fahrt",
+        Phrase::StageSubmit => "Auftrag",
+        Phrase::StageTransform => "Umrechnung",
+        Phrase::StageDraw => "Zeichnen",
+        Phrase::StageShow => "Anzeige",
+        Phrase::CornersNeedRoom => {
+            "Ecken lassen sich nur in den Fenstern eines Raums verschieben: mit --display und ohne --preview starten"
+        }
+        Phrase::CornerAt => "{0}: Ecke {1} bei {2}, {3} Pixel",
+        Phrase::CornerUnsaved => "{0}, nicht gespeichert",
+        Phrase::UpperLeft => "links oben",
+        Phrase::UpperRight => "rechts oben",
+        Phrase::LowerRight => "rechts unten",
+        Phrase::LowerLeft => "links unten",
+        Phrase::MeasuredWarp => {
+            "Kanal {0} hat eine gemessene Verzerrung, also lassen sich seine Ecken nicht verschieben"
+        }
+        Phrase::NotConvex => {
+            "Kanal {0}: die Ecken bilden in der Reihenfolge links oben, rechts oben, rechts unten, links unten kein \
+             konvexes Viereck"
+        }
+        Phrase::NothingToSave => "nichts zu speichern: keine Ecke wurde verschoben",
+        Phrase::SavedIn => "gespeichert in {0}",
+        Phrase::NotSaved => "nicht gespeichert: {0}",
+        Phrase::CornerNext => "nächste Ecke, dann die des nächsten Kanals; mit Umschalt die vorige",
+        Phrase::CornerMove => "die Ecke um 1 Pixel verschieben, mit Umschalt um 10",
+        Phrase::CornerBack => {
+            "die Ecke an ihren Ort aus der Datei zurücksetzen; mit Umschalt in die Ecke des Bildbereichs"
+        }
+        Phrase::CornerSave => "speichern",
+        Phrase::CornerLeave => "verlassen",
+        Phrase::ShiftKey => "Umschalt",
+        Phrase::SpaceKey => "Leertaste",
+        Phrase::BackspaceKey => "Rücktaste",
+        Phrase::EnterKey => "Eingabe",
     }
 }

@@ -125,6 +125,16 @@ mod tests {
         }
     }
 
+    /// Phrases that are the same in both languages: names, signs, and words that German has taken over.
+    const SAME: [Phrase; 1] = [Phrase::Doppler];
+
+    #[test]
+    fn german_is_not_english() {
+        let same = |phrase: &Phrase| Language::German.text(*phrase) == Language::English.text(*phrase);
+        let found: Vec<Phrase> = Phrase::ALL.iter().copied().filter(same).collect();
+        assert_eq!(found, SAME);
+    }
+
     #[test]
     fn values_stand_where_their_numbers_are() {
         assert_eq!(Language::German.fill(Phrase::Light, &[&"30 km/h"]), "Licht: 30 km/h");

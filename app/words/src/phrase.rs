@@ -454,4 +454,140 @@ phrases! {
     PlannerPurpose,
     /// The start of the ride.
     Start,
+    /// Line of an open device; {0}: its kind, {1}: its name, {2}: samples a second.
+    DeviceAt,
+    /// Messages that could not be read; {0}: number, {1}: reason of the last.
+    BadMessages,
+    /// Line of the trainer; {0}: speed, {1}: cadence, {2}: power.
+    TrainerLine,
+    /// Value that is not measured; {0}: its unit.
+    NoValue,
+    /// Unit of the cadence.
+    TurnsPerMinute,
+    /// Things that the panel has no room for; {0}: number.
+    MoreThings,
+    /// Thing that is on the head; {0}: its name.
+    IsHead,
+    /// Thing that a tracker sends; {0}: its name, {1}: reports a second.
+    HeardAt,
+    /// State of a thing that its tracker does not see.
+    NotSeen,
+    /// Angles of a thing, degrees; {0}: yaw, {1}: pitch, {2}: roll.
+    Angles,
+    /// Buttons that are held; {0}: their numbers.
+    Held,
+    /// No button that is held.
+    NoButton,
+    /// Axes of a thing; {0}: their values.
+    Axes,
+    /// State: the head is tracked.
+    HeadTracked,
+    /// State: the head was never seen.
+    HeadNeverSeen,
+    /// State: the head is lost.
+    HeadLost,
+    /// Head that is not seen; {0}: its state, {1}: poses rejected, {2}: reason of the last.
+    PosesRejected,
+    /// Line of the head; {0}: its state, {1}: poses rejected.
+    HeadLine,
+    /// Notice: the head is straight.
+    HeadIsStraight,
+    /// Notice: no head can be straightened.
+    NoHeadToStraighten,
+    /// Notice: a head of a calibrated tracker stays.
+    HeadIsCalibrated,
+    /// Notice: a recorded head stays.
+    RecordedHeadStays,
+    /// Line on the devices of a ride that is replayed.
+    RecordedRide,
+    /// Notice: a recording begins; {0}: its file.
+    RecordingInto,
+    /// Notice: a recording is being completed.
+    RecordingEnds,
+    /// Notice: a recording is complete.
+    RecordingComplete,
+    /// Notice: the ride is not recorded; {0}: reason.
+    NotRecorded,
+    /// Notice: the past of the ride is lost; {0}: reason.
+    NotRemembered,
+    /// Notice: a recording lacks the end of the ride; {0}: its file.
+    RecordingCut,
+    /// Notice of a replay; {0}: frame, {1}: field, {2}: its recorded value, {3}: its value now.
+    ReplayDiffers,
+    /// Notice of own time that was lost; {0}: seconds.
+    LostTime,
+    /// Notice: no picture was saved; {0}: reason.
+    PhotoFailed,
+    /// Notice: the language was not saved; {0}: reason.
+    LanguageNotKept,
+    /// Notice of an eye behind a screen; {0}: channel, {1}: place of the eye, {2}: distance, metres.
+    ChannelBlack,
+    /// Notice of coarse edges; {0}: angle.
+    DirectionsUncertain,
+    /// Notice of rounded numbers; {0}: angle.
+    AsternUncertain,
+    /// Sixtieths of a degree.
+    Arcminutes,
+    /// Sixtieths of an arcminute.
+    Arcseconds,
+    /// Accuracy of a picture; {0}: error, {1}: share of the window's resolution, percent.
+    DrawnAt,
+    /// Line on the drawing; {0}: triangles, {1}: renderer, {2}: graphics device.
+    DrawnBy,
+    /// Line on several windows; {0}: windows, {1}: frame, {2}: skew, {3}: longest skew, milliseconds, {4}: windows left out, {5}: turns held.
+    InStep,
+    /// Title of the operator's window.
+    OperatorTitle,
+    /// Stage of a frame: devices and vehicle.
+    StageRide,
+    /// Stage of a frame: work for the other threads.
+    StageSubmit,
+    /// Stage of a frame: photo-surfaces.
+    StageTransform,
+    /// Stage of a frame: light.
+    StageDraw,
+    /// Stage of a frame: windows.
+    StageShow,
+    /// Notice: a flat picture has no corners to move.
+    CornersNeedRoom,
+    /// Corner that keys move; {0}: channel, {1}: corner, {2} and {3}: place, pixels.
+    CornerAt,
+    /// Corner that the file has elsewhere; {0}: the corner.
+    CornerUnsaved,
+    /// Corner of a picture.
+    UpperLeft,
+    /// Corner of a picture.
+    UpperRight,
+    /// Corner of a picture.
+    LowerRight,
+    /// Corner of a picture.
+    LowerLeft,
+    /// Message: a channel has no corners to move; {0}: channel.
+    MeasuredWarp,
+    /// Message: corners would make no picture; {0}: channel.
+    NotConvex,
+    /// Message: no corner has moved.
+    NothingToSave,
+    /// Message: corners are saved; {0}: file.
+    SavedIn,
+    /// Message: corners are not saved; {0}: reason.
+    NotSaved,
+    /// Meaning of a key while corners are moved.
+    CornerNext,
+    /// Meaning of keys while corners are moved.
+    CornerMove,
+    /// Meaning of a key while corners are moved.
+    CornerBack,
+    /// Meaning of a key while corners are moved.
+    CornerSave,
+    /// Meaning of a key while corners are moved.
+    CornerLeave,
+    /// Name of a key.
+    ShiftKey,
+    /// Name of a key.
+    SpaceKey,
+    /// Name of a key.
+    BackspaceKey,
+    /// Name of the enter key.
+    EnterKey,
 }

@@ -4,6 +4,7 @@ use std::io::{self, ErrorKind};
 use std::net::{SocketAddr, UdpSocket};
 use std::time::{Duration, Instant};
 
+use super::fault::DeviceFault;
 use super::feed::DeviceConnection;
 use super::flood_gate::{FloodGate, MessageKind};
 use super::serial::passing;
@@ -13,14 +14,13 @@ const READ_WAIT: Duration = Duration::from_millis(100);
 /// Silence after which another sender may take the place of the first.
 const SENDER_SILENCE: Duration = Duration::from_secs(2);
 
-/// Sentence on a port of this machine that cannot be listened at; `program`: name of the sender.
-pub(super) fn not_listening(program: &str, place: &str, error: &io::Error) -> String {
+/// Fault of a port of this machine that cannot be listened at; `program`: name of the sender.
+pub(super) fn not_listening(program: &'static str, place: &str, error: io::Error) -> DeviceFault {
+    let place = place.to_owned();
     match error.kind() {
-        ErrorKind::AddrInUse => {
-            format!("another program listens at {place}: end it, or have {program} send to another port")
-        }
-        ErrorKind::AddrNotAvailable => format!("{place} is no address of this machine: name one that is, or none"),
-        _ => format!("cannot listen at {place}: {error}"),
+        ErrorKind::AddrInUse => DeviceFault::PortTaken(program, place),
+        ErrorKind::AddrNotAvailable => DeviceFault::NotOurAddress(place),
+        _ => DeviceFault::Deaf(place, Box::new(error.into())),
     }
 }
 

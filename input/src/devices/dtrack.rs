@@ -4,6 +4,7 @@ use std::io;
 use std::net::{IpAddr, SocketAddr, UdpSocket};
 
 use super::datagrams::{DatagramLink, not_listening};
+use super::fault::DeviceFault;
 use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use super::multicast::{GroupLink, Membership};
 use crate::dtrack::wire::LONGEST_DATAGRAM;
@@ -34,9 +35,9 @@ impl DtrackPort {
 }
 
 impl DevicePort for DtrackPort {
-    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), DeviceFault> {
         let path = SocketAddr::new(self.address, self.port).to_string();
-        let link = self.link().map_err(|error| not_listening("DTrack", &path, &error))?;
+        let link = self.link().map_err(|error| not_listening("DTrack", &path, error))?;
         let place = OpenedDevice { source: SampleSource::Dtrack, name: "DTrack".to_owned(), path };
         Ok((place, link))
     }

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, TryRecvError, TrySendError, bounded};
 
+use super::fault::{DeviceFault, DeviceNote};
 use crate::clock::{Clock, Nanos, SECOND, seconds_between};
 use crate::sample::{Sample, SampleSource};
 
@@ -19,8 +20,8 @@ pub(super) trait DevicePort: Send {
     /// Opens the device.
     ///
     /// # Errors
-    /// A sentence that says what is missing and what to do about it.
-    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String>;
+    /// What is missing, with what to do about it.
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), DeviceFault>;
 }
 
 /// Device that has been opened.
@@ -44,8 +45,8 @@ pub(super) trait DeviceConnection {
         0
     }
 
-    /// Sentence on a device that is open and yet does not do all that it should.
-    fn note(&self) -> Option<&str> {
+    /// Note on a device that is open and yet does not do all that it should.
+    fn note(&self) -> Option<DeviceNote> {
         None
     }
 
@@ -58,8 +59,8 @@ pub(super) trait DeviceConnection {
 pub enum DeviceState {
     /// The device is open.
     Open,
-    /// A sentence that says why the device is not open, and what to do.
-    Absent(String),
+    /// The device is not open, for this reason.
+    Absent(DeviceFault),
 }
 
 /// Status of a device, for a listing.
@@ -73,8 +74,8 @@ pub struct DeviceStatus {
     pub path: String,
     /// State of the device: open, or the reason why not.
     pub state: DeviceState,
-    /// Sentence on a device that is open and yet does not do all that it should.
-    pub note: Option<String>,
+    /// Note on a device that is open and yet does not do all that it should.
+    pub note: Option<DeviceNote>,
     /// Samples a second, over the last second.
     pub rate_hz: f64,
     /// Number of samples so far.
@@ -134,7 +135,7 @@ impl DeviceFeed {
             source,
             name: source.name().to_owned(),
             path: String::new(),
-            state: DeviceState::Absent("being looked for".to_owned()),
+            state: DeviceState::Absent(DeviceFault::Sought),
             note: None,
             rate_hz: 0.0,
             samples: 0,
@@ -173,27 +174,27 @@ impl DeviceFeed {
     }
 
     /// Reads until the device goes or the program ends; returns the reason.
-    fn read(&self, source: SampleSource, connection: &mut dyn DeviceConnection) -> String {
+    fn read(&self, source: SampleSource, connection: &mut dyn DeviceConnection) -> DeviceFault {
         let mut bytes = Vec::new();
-        let mut noted: Option<String> = None;
+        let mut noted = None;
         while !self.is_stopped() {
             bytes.clear();
             if let Err(error) = connection.read(&mut bytes) {
-                return format!("it has gone ({error}); it will be used again when it is back");
+                return DeviceFault::Gone(Box::new(error.into()));
             }
             let passed_over = connection.passed_over();
             if passed_over > 0 {
                 lock(&self.live).status.dropped += passed_over;
             }
-            if connection.note() != noted.as_deref() {
-                noted = connection.note().map(str::to_owned);
-                lock(&self.live).status.note.clone_from(&noted);
+            if connection.note() != noted {
+                noted = connection.note();
+                lock(&self.live).status.note = noted;
             }
             if !bytes.is_empty() && self.bytes(source, &bytes) {
                 connection.report_all();
             }
         }
-        "the program ends".to_owned()
+        DeviceFault::ProgramEnds
     }
 
     fn is_stopped(&self) -> bool {
@@ -208,7 +209,7 @@ impl DeviceFeed {
         self.send(Sample::opened(self.clock.now(), source));
     }
 
-    fn absent(&self, why: String) {
+    fn absent(&self, why: DeviceFault) {
         let mut live = lock(&self.live);
         live.status.state = DeviceState::Absent(why);
         live.status.note = None;
@@ -275,8 +276,8 @@ mod tests {
     }
 
     impl DevicePort for Flaky {
-        fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
-            self.lives = self.lives.checked_sub(1).ok_or("it is broken")?;
+        fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), DeviceFault> {
+            self.lives = self.lives.checked_sub(1).ok_or(DeviceFault::NothingThere)?;
             let place = OpenedDevice { source: SampleSource::Bicycle, name: "flaky".into(), path: "nowhere".into() };
             Ok((place, Box::new(SaysOnce(Some(self.lives)))))
         }
@@ -299,7 +300,7 @@ mod tests {
         let bytes = |byte: u8| Sample::bytes(0, SampleSource::Bicycle, [byte]).signal;
         use crate::sample::Signal::{Closed, Opened};
         assert_eq!(seen, [Opened, bytes(1), Closed, Opened, bytes(0), Closed]);
-        while status(&live, 0).state != DeviceState::Absent("it is broken".to_owned()) {
+        while status(&live, 0).state != DeviceState::Absent(DeviceFault::NothingThere) {
             std::thread::sleep(Duration::from_millis(5));
         }
         drop(stop);

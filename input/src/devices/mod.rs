@@ -7,12 +7,13 @@
 //! *oldest* sample: no thread ever waits, the newest state is never lost, and dropped samples are counted. Each
 //! device has its own queue, so a flood of one harms no other.
 //!
-//! A device that is missing or may not be read is no error: [`Devices::status`] says in a sentence what to do about
-//! it. Samples of keyboard and mouse come from the window, not from here.
+//! A device that is missing or may not be read is no error: [`Devices::status`] says what to do about it
+//! ([`DeviceFault`]). Samples of keyboard and mouse come from the window, not from here.
 
 mod config;
 mod datagrams;
 mod dtrack;
+mod fault;
 mod feed;
 mod flood_gate;
 mod lanes;
@@ -32,6 +33,8 @@ mod trainer_error;
 mod vrpn;
 
 pub use config::DevicesConfig;
+pub use fault::{DeviceFault, DeviceNote, UDEV_RULE};
 pub use feed::{DeviceState, DeviceStatus};
 pub use lanes::{Devices, DevicesError};
 pub use plugged::{PluggedDevice, plugged_in};
+pub use trainer_error::{TrainerError, TrainerRequest, short_numbers};

@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use if_addrs::get_if_addrs;
 use socket2::{Domain, Protocol, Socket, Type};
 
+use super::fault::DeviceFault;
 use super::feed::DeviceConnection;
 
 /// Time after which interfaces are looked for again: a network may come up after this program.
@@ -57,7 +58,7 @@ impl Membership {
         let membership = Self { socket: socket.try_clone()?, group, looked_at: Instant::now() };
         let (joined, refused) = membership.join(&interfaces(group)?);
         if joined.is_empty() {
-            let none = || io::Error::new(io::ErrorKind::NotFound, "this machine has no network interface for it");
+            let none = || DeviceFault::NoInterface.io(io::ErrorKind::NotFound);
             return Err(refused.unwrap_or_else(none));
         }
         Ok((socket, membership))

@@ -3,6 +3,7 @@
 use std::net::{IpAddr, SocketAddr, UdpSocket};
 
 use super::datagrams::{DatagramLink, not_listening};
+use super::fault::DeviceFault;
 use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use crate::opentrack::DATAGRAM_LENGTH;
 use crate::sample::SampleSource;
@@ -22,11 +23,11 @@ impl OpentrackPort {
 }
 
 impl DevicePort for OpentrackPort {
-    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), DeviceFault> {
         let path = self.place.to_string();
         let link = UdpSocket::bind(self.place)
             .and_then(|socket| DatagramLink::new(socket, LONGEST, |datagram| datagram.len() == DATAGRAM_LENGTH))
-            .map_err(|error| not_listening("opentrack", &path, &error))?;
+            .map_err(|error| not_listening("opentrack", &path, error))?;
         let place = OpenedDevice { source: SampleSource::Opentrack, name: "opentrack".to_owned(), path };
         Ok((place, Box::new(link)))
     }

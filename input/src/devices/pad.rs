@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use evdev::{AbsoluteAxisCode, Device, KeyCode};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
+use super::fault::DeviceFault;
 use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use crate::gamepad::GamepadItem;
 use crate::gamepad_codes as codes;
@@ -20,12 +21,10 @@ const NAMES: &str = "/dev/input/by-id";
 pub(super) struct PadPort;
 
 impl DevicePort for PadPort {
-    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), DeviceFault> {
         let (path, device) = pads().into_iter().next().ok_or_else(|| match unreadable() {
-            Some(path) => {
-                format!("{} may not be read: `sudo usermod -aG input $USER`, then log in again", path.display())
-            }
-            None => "no gamepad is plugged in".to_owned(),
+            Some(path) => DeviceFault::GamepadForbidden(path.display().to_string()),
+            None => DeviceFault::NoGamepad,
         })?;
         let place =
             OpenedDevice { source: SampleSource::Gamepad, name: name(&device), path: path.display().to_string() };

@@ -2,6 +2,7 @@
 
 use hidapi::HidApi;
 
+use super::fault::DeviceFault;
 use super::puck::candidates;
 use super::serial;
 use crate::sample::SampleSource;
@@ -16,7 +17,7 @@ pub struct PluggedDevice {
     /// Path of the device.
     pub path: String,
     /// Reason why it may not be read, and what to do; `None` if it may, or if only an attempt would tell.
-    pub refused: Option<String>,
+    pub refused: Option<DeviceFault>,
 }
 
 /// All devices of the machine that could be used: serial ports, SpaceMice, gamepads.

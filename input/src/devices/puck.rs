@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use hidapi::{HidApi, HidDevice};
 
+use super::fault::DeviceFault;
 use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 #[cfg(unix)]
 use super::spnav_places::usual_places;
@@ -25,10 +26,6 @@ const READ_WAIT_MS: i32 = 100;
 /// Length of the buffer, bytes, that of the longest report over USB.
 const BUFFER: usize = 64;
 
-/// Instruction that makes the device readable.
-const UDEV_RULE: &str = "as root, put `KERNEL==\"hidraw*\", ATTRS{idVendor}==\"046d|256f\", TAG+=\"uaccess\"` into \
-                         /etc/udev/rules.d/70-spacemouse.rules and plug it in again";
-
 /// Interface that may be that of a SpaceMouse.
 pub(super) struct SpaceMouseInterface {
     pub(super) name: String,
@@ -39,10 +36,12 @@ impl SpaceMouseInterface {
     /// Opens the interface.
     ///
     /// # Errors
-    /// A sentence that says what to do.
-    pub(super) fn open(&self, api: &HidApi) -> Result<HidDevice, String> {
-        api.open_path(&self.path).map_err(|error| {
-            format!("{} may not be read at {} ({error}): {UDEV_RULE}", self.name, self.path.to_string_lossy())
+    /// The reason, with what to do.
+    pub(super) fn open(&self, api: &HidApi) -> Result<HidDevice, DeviceFault> {
+        api.open_path(&self.path).map_err(|error| DeviceFault::SpaceMouseForbidden {
+            name: self.name.clone(),
+            path: self.path.to_string_lossy().into_owned(),
+            reason: error.to_string(),
         })
     }
 }
@@ -74,32 +73,33 @@ impl PuckPort {
     }
 
     #[cfg(unix)]
-    fn through_daemon(&self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
+    fn through_daemon(&self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), DeviceFault> {
         super::socket::SpacenavdLink::connect(
             &self.socket.as_ref().map_or_else(usual_places, |socket| vec![socket.clone()]),
         )
     }
 
     #[cfg(not(unix))]
-    fn through_daemon(&self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
+    fn through_daemon(&self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), DeviceFault> {
         let place = self.socket.as_ref().map_or(String::new(), |socket| format!(" ({})", socket.display()));
-        Err(format!("there is no spacenavd here{place}"))
+        Err(DeviceFault::NeverSpacenavd(place))
     }
 }
 
 impl DevicePort for PuckPort {
-    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
-        open_raw().or_else(|raw| self.through_daemon().map_err(|daemon| format!("{raw}; {daemon}")))
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), DeviceFault> {
+        let both = |raw, daemon| DeviceFault::Both(Box::new(raw), Box::new(daemon));
+        open_raw().or_else(|raw| self.through_daemon().map_err(|daemon| both(raw, daemon)))
     }
 }
 
 /// Opens all interfaces that may be the right one: a wireless receiver has several, and only the first report tells
 /// which.
-fn open_raw() -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
-    let api = HidApi::new().map_err(|error| format!("HID devices cannot be listed: {error}"))?;
+fn open_raw() -> Result<(OpenedDevice, Box<dyn DeviceConnection>), DeviceFault> {
+    let api = HidApi::new().map_err(|error| DeviceFault::NoHidList(error.to_string()))?;
     let mut interfaces = Vec::new();
     let mut found = None;
-    let mut why = "no SpaceMouse is plugged in".to_owned();
+    let mut why = DeviceFault::NoSpaceMouse;
     for candidate in candidates(&api) {
         match candidate.open(&api) {
             Ok(device) => {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
+use super::fault::DeviceFault;
 use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use crate::brake::BrakeCommand;
 use crate::sample::SampleSource;
@@ -54,18 +55,14 @@ impl SerialPort {
 }
 
 impl DevicePort for SerialPort {
-    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), DeviceFault> {
         // The control lines are left alone: pseudo-terminals have none, and touching DTR resets many boards.
         let port = serialport::new(&self.path, self.baud).timeout(READ_WAIT).open().map_err(|error| {
-            let path = &self.path;
+            let path = self.path.clone();
             match error.kind() {
-                serialport::ErrorKind::Io(ErrorKind::NotFound) => {
-                    format!("there is no {path}: plug the bicycle in, or name another port")
-                }
-                serialport::ErrorKind::Io(ErrorKind::PermissionDenied) => {
-                    format!("{path} may not be opened: `sudo usermod -aG dialout $USER`, then log in again")
-                }
-                _ => format!("{path} cannot be opened as a serial port: {error}"),
+                serialport::ErrorKind::Io(ErrorKind::NotFound) => DeviceFault::NoSerialPort(path),
+                serialport::ErrorKind::Io(ErrorKind::PermissionDenied) => DeviceFault::SerialPortForbidden(path),
+                _ => DeviceFault::SerialPort(path, error.to_string()),
             }
         })?;
         let place = OpenedDevice { source: SampleSource::Bicycle, name: "bicycle".to_owned(), path: self.path.clone() };

@@ -5,6 +5,7 @@ use std::os::unix::net::UnixStream;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use super::fault::DeviceFault;
 use super::feed::{DeviceConnection, OpenedDevice};
 use super::serial::passing;
 use crate::sample::SampleSource;
@@ -23,8 +24,8 @@ impl SpacenavdLink {
     /// Connects to the daemon at the first of these places where it runs.
     ///
     /// # Errors
-    /// A sentence that says why not: a refusal if there is one, else that it does not run.
-    pub(super) fn connect(paths: &[PathBuf]) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
+    /// Why not: a refusal if there is one, else that it does not run.
+    pub(super) fn connect(paths: &[PathBuf]) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), DeviceFault> {
         let mut refused = None;
         for path in paths {
             let place = path.display().to_string();
@@ -40,11 +41,11 @@ impl SpacenavdLink {
                     return Ok((place, Box::new(Self { stream, partial: Vec::new() })));
                 }
                 Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::ConnectionRefused) => {}
-                Err(error) => refused = Some(format!("spacenavd cannot be reached at {place}: {error}")),
+                Err(error) => refused = Some(DeviceFault::SpacenavdRefuses(place, error.to_string())),
             }
         }
         let places: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
-        Err(refused.unwrap_or_else(|| format!("spacenavd does not run ({})", places.join(", "))))
+        Err(refused.unwrap_or_else(|| DeviceFault::NoSpacenavd(places.join(", "))))
     }
 }
 

@@ -16,17 +16,18 @@ use std::time::{Duration, Instant};
 
 use socket2::SockRef;
 
+use super::fault::{DeviceFault, DeviceNote};
 use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use super::flood_gate::{FloodGate, MessageKind};
 use super::serial::passing;
-use super::trainer_error::TrainerError;
+use super::trainer_error::{TrainerError, TrainerRequest};
 use crate::sample::SampleSource;
 use crate::trainer::control::{TrainerControl, release};
 use crate::trainer::url::TrainerUrl;
 use crate::trainer::wire::{
     CAN_NOTIFY, CAN_WRITE, CHARACTERISTICS, CONTROL_POINT, DirectConnectMessage, DirectConnectPieces, ENABLE,
-    FITNESS_MACHINE, INDOOR_BIKE_DATA, NOTIFICATION, POWER_MEASUREMENT, SERVICES, SPEED_MEASUREMENT, UUID_LENGTH,
-    WRITE, refusal, short, uuid,
+    FITNESS_MACHINE, INDOOR_BIKE_DATA, NOTIFICATION, POWER_MEASUREMENT, RequestRefusal, SERVICES, SPEED_MEASUREMENT,
+    UUID_LENGTH, WRITE, short, uuid,
 };
 
 /// Longest wait for the connection.
@@ -61,43 +62,40 @@ impl TrainerPort {
         Self { url, grade }
     }
 
-    fn connect(&self) -> Result<TcpStream, String> {
+    fn connect(&self) -> Result<TcpStream, DeviceFault> {
         let TrainerUrl { host, port } = &self.url;
         let addresses = (host.as_str(), *port)
             .to_socket_addrs()
-            .map_err(|error| format!("there is no host {host:?} ({error}): name another"))?;
-        let mut why = "it has no address".to_owned();
+            .map_err(|error| DeviceFault::NoHost(host.clone(), error.to_string()))?;
+        let mut why = DeviceFault::NoAddress;
         for address in addresses {
             match connected(TcpStream::connect_timeout(&address, CONNECT_WAIT)) {
                 Ok(stream) => return Ok(stream),
                 Err(reason) => why = reason,
             }
         }
-        Err(format!("no trainer at {}: {why}", self.url))
+        Err(DeviceFault::NoTrainer(self.url.to_string(), Box::new(why)))
     }
 }
 
 /// Stream to another program, or the reason why there is none.
-fn connected(outcome: io::Result<TcpStream>) -> Result<TcpStream, String> {
-    const NOTHING_LISTENS: &str = "nothing listens there: switch the trainer on, or name another port";
+fn connected(outcome: io::Result<TcpStream>) -> Result<TcpStream, DeviceFault> {
     match outcome {
         // While no trainer listens, a port of this machine may be connected to itself.
-        Ok(stream) if stream.local_addr().ok() == stream.peer_addr().ok() => Err(NOTHING_LISTENS.to_owned()),
+        Ok(stream) if stream.local_addr().ok() == stream.peer_addr().ok() => Err(DeviceFault::NoTrainerThere),
         Ok(stream) => Ok(stream),
-        Err(error) if error.kind() == ErrorKind::ConnectionRefused => Err(NOTHING_LISTENS.to_owned()),
-        Err(error) if error.kind() == ErrorKind::TimedOut => {
-            Err("nothing answers there: is it switched on, and in this network?".to_owned())
-        }
-        Err(error) => Err(error.to_string()),
+        Err(error) if error.kind() == ErrorKind::ConnectionRefused => Err(DeviceFault::NoTrainerThere),
+        Err(error) if error.kind() == ErrorKind::TimedOut => Err(DeviceFault::NothingThere),
+        Err(error) => Err(error.into()),
     }
 }
 
 impl DevicePort for TrainerPort {
-    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), DeviceFault> {
         let stream = self.connect()?;
         let path = self.url.to_string();
-        let link =
-            TrainerLink::begin(stream, self.grade.clone()).map_err(|error| format!("no trainer at {path}: {error}"))?;
+        let link = TrainerLink::begin(stream, self.grade.clone())
+            .map_err(|error| DeviceFault::NoTrainer(path.clone(), Box::new(DeviceFault::Trainer(error))))?;
         Ok((OpenedDevice { source: SampleSource::Trainer, name: "trainer".to_owned(), path }, Box::new(link)))
     }
 }
@@ -154,21 +152,20 @@ impl TrainerLink {
             broken: false,
         };
         let deadline = now + ANSWER_WAIT;
-        let services = link.ask("list its services", SERVICES, &[], deadline)?;
+        let services = link.ask(TrainerRequest::Services, SERVICES, &[], deadline)?;
         let services: Vec<Option<u16>> = services.as_chunks::<UUID_LENGTH>().0.iter().map(short).collect();
         if !services.contains(&Some(FITNESS_MACHINE)) {
-            return Err(TrainerError::NoFitnessMachine(named(&services)));
+            return Err(TrainerError::NoFitnessMachine(services));
         }
-        let listed =
-            link.ask("list what its fitness machine has", CHARACTERISTICS, &uuid(FITNESS_MACHINE), deadline)?;
+        let listed = link.ask(TrainerRequest::Characteristics, CHARACTERISTICS, &uuid(FITNESS_MACHINE), deadline)?;
         let records = listed.get(UUID_LENGTH..).unwrap_or_default().as_chunks::<{ UUID_LENGTH + 1 }>().0;
         let characteristics: Vec<(Option<u16>, u8)> = records.iter().map(characteristic).collect();
         let has = |number, property| characteristics.iter().any(|(n, can)| *n == Some(number) && can & property != 0);
         if !has(INDOOR_BIKE_DATA, CAN_NOTIFY) {
             let numbers: Vec<Option<u16>> = characteristics.iter().map(|(number, _)| *number).collect();
-            return Err(TrainerError::NoBikeData(named(&numbers)));
+            return Err(TrainerError::NoBikeData(numbers));
         }
-        link.ask("send its bike data", ENABLE, &enabling(INDOOR_BIKE_DATA), deadline)?;
+        link.ask(TrainerRequest::BikeData, ENABLE, &enabling(INDOOR_BIKE_DATA), deadline)?;
         // What follows is good to have: its answers are not waited for.
         for (_, measurement) in OTHER_SERVICES.iter().filter(|(service, _)| services.contains(&Some(*service))) {
             link.say(ENABLE, &enabling(*measurement))?;
@@ -189,10 +186,10 @@ impl TrainerLink {
     }
 
     /// Sends a request and waits for the answer: its data.
-    fn ask(&mut self, what: &'static str, kind: u8, data: &[u8], deadline: Instant) -> Result<Vec<u8>, TrainerError> {
+    fn ask(&mut self, what: TrainerRequest, kind: u8, data: &[u8], deadline: Instant) -> Result<Vec<u8>, TrainerError> {
         match self.answer(kind, data, deadline)? {
             Some((0, data)) => Ok(data),
-            Some((response, _)) => Err(TrainerError::Refused(what, refusal(response))),
+            Some((response, _)) => Err(TrainerError::Refused(what, RequestRefusal::of(response))),
             None => Err(TrainerError::Silent),
         }
     }
@@ -247,8 +244,7 @@ impl TrainerLink {
                     }
                     (WRITE, _) if *writing == Some(message.sequence) => {
                         *writing = None;
-                        let why = refusal(message.response);
-                        control.iter_mut().for_each(|control| control.written(now, message.response, why));
+                        control.iter_mut().for_each(|control| control.written(now, message.response));
                     }
                     _ => {}
                 }
@@ -262,7 +258,7 @@ impl TrainerLink {
     fn watch(&mut self) -> io::Result<()> {
         let silence = self.last_heard.elapsed();
         if silence > SILENCE {
-            return Err(io::Error::new(ErrorKind::TimedOut, format!("silent for {} s", SILENCE.as_secs())));
+            return Err(DeviceFault::Silent(SILENCE.as_secs()).io(ErrorKind::TimedOut));
         }
         if silence > ASK_AFTER && self.last_asked.elapsed() > ASK_AFTER {
             self.last_asked = Instant::now();
@@ -337,14 +333,6 @@ fn characteristic(record: &[u8; UUID_LENGTH + 1]) -> (Option<u16>, u8) {
     (short(uuid), properties[0])
 }
 
-/// Names of services or characteristics, for an error's sentence.
-fn named(numbers: &[Option<u16>]) -> String {
-    const MOST: usize = 8;
-    let names = numbers.iter().take(MOST).map(|number| number.map_or("another's".to_owned(), |n| format!("{n:04x}")));
-    let names: Vec<String> = names.collect();
-    if names.is_empty() { "nothing at all".to_owned() } else { names.join(", ") }
-}
-
 /// Kind of a notification: its characteristic and its flags, because divided data have different ones.
 fn kind_of(message: DirectConnectMessage<'_>, value: &[u8]) -> MessageKind {
     let mut kind = MessageKind::default();
@@ -367,12 +355,10 @@ impl DeviceConnection for TrainerLink {
         self.gate.passed_over()
     }
 
-    fn note(&self) -> Option<&str> {
+    fn note(&self) -> Option<DeviceNote> {
         match &self.control {
-            Some(control) => control.refusal(),
-            None => {
-                Some("the trainer takes no commands (it has no control point 2ad9): its brake does not follow the road")
-            }
+            Some(control) => control.refusal().map(DeviceNote::NoControl),
+            None => Some(DeviceNote::NoControlPoint),
         }
     }
 }

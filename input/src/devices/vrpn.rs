@@ -14,6 +14,7 @@ use std::time::{Duration, Instant};
 
 use socket2::SockRef;
 
+use super::fault::DeviceFault;
 use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
 use super::flood_gate::{FloodGate, MessageKind};
 use super::serial::passing;
@@ -56,34 +57,35 @@ impl VrpnPort {
         Self { host: host.to_owned(), port, devices }
     }
 
-    fn connect(&self) -> Result<TcpStream, String> {
+    fn connect(&self) -> Result<TcpStream, DeviceFault> {
         let place = format!("{}:{}", self.host, self.port);
         let addresses = (self.host.as_str(), self.port)
             .to_socket_addrs()
-            .map_err(|error| format!("there is no host {:?} ({error}): name another", self.host))?;
-        let mut why = "it has no address".to_owned();
+            .map_err(|error| DeviceFault::NoHost(self.host.clone(), error.to_string()))?;
+        let mut why = DeviceFault::NoAddress;
         for address in addresses {
             match TcpStream::connect_timeout(&address, CONNECT_WAIT) {
                 // While no server listens, a port may be connected to itself.
                 Ok(stream) if stream.local_addr().ok() == stream.peer_addr().ok() => {
-                    why = "nothing listens there: start the VRPN server, or name another port".to_owned();
+                    why = DeviceFault::NoVrpnThere;
                 }
                 Ok(stream) => return Ok(stream),
                 Err(error) if error.kind() == ErrorKind::ConnectionRefused => {
-                    why = "nothing listens there: start the VRPN server, or name another port".to_owned();
+                    why = DeviceFault::NoVrpnThere;
                 }
-                Err(error) => why = error.to_string(),
+                Err(error) => why = error.into(),
             }
         }
-        Err(format!("no VRPN server at {place}: {why}"))
+        Err(DeviceFault::NoVrpnServer(place, Box::new(why)))
     }
 }
 
 impl DevicePort for VrpnPort {
-    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), String> {
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), DeviceFault> {
         let path = format!("{}:{}", self.host, self.port);
         let stream = self.connect()?;
-        let link = VrpnLink::begin(stream, &self.devices).map_err(|error| format!("{path}: {error}"))?;
+        let link = VrpnLink::begin(stream, &self.devices)
+            .map_err(|error| DeviceFault::At(path.clone(), Box::new(error.into())))?;
         let place = OpenedDevice { source: SampleSource::Vrpn, name: self.devices[0].clone(), path };
         Ok((place, Box::new(link)))
     }
@@ -152,12 +154,12 @@ impl VrpnLink {
             // A server repeats the descriptions of its clients.
             let mut others = self.numbers.senders();
             others.retain(|name| !self.devices.contains(name));
-            let known = match others.join(", ") {
-                _ if !is_missing => String::new(),
-                none if none.is_empty() => "; it has described no device".to_owned(),
-                others => format!("; it has no such device, but {others}"),
+            let fault = match others.join(", ") {
+                _ if !is_missing => DeviceFault::Silent(SILENCE.as_secs()),
+                none if none.is_empty() => DeviceFault::SilentWithoutDevices(SILENCE.as_secs()),
+                others => DeviceFault::SilentWithOthers(SILENCE.as_secs(), others),
             };
-            return Err(io::Error::new(ErrorKind::TimedOut, format!("silent for {} s{known}", SILENCE.as_secs())));
+            return Err(fault.io(ErrorKind::TimedOut));
         }
         if self.last_ping.is_some_and(|last| last.elapsed() < PING_EVERY) {
             return Ok(());
@@ -198,7 +200,7 @@ impl VrpnLink {
 
 /// Cookie of the server, which must come as a whole before the wait is over, in whatever pieces.
 fn cookie_of(stream: &mut TcpStream) -> io::Result<[u8; COOKIE_LENGTH]> {
-    let silent = || io::Error::new(ErrorKind::TimedOut, "it says nothing; is it a VRPN server?");
+    let silent = || DeviceFault::NoGreeting.io(ErrorKind::TimedOut);
     let deadline = Instant::now() + CONNECT_WAIT;
     let mut cookie = [0; COOKIE_LENGTH];
     let mut length = 0;

@@ -7,6 +7,10 @@
 
 use std::time::{Duration, Instant};
 
+use thiserror::Error;
+
+use super::wire::RequestRefusal;
+
 /// Shortest time between two loads.
 const LOAD_EVERY: Duration = Duration::from_millis(250);
 /// Time after which an unchanged load is told again.
@@ -68,6 +72,23 @@ pub(crate) fn release() -> [Vec<u8>; 2] {
     [simulation(0), vec![RESET]]
 }
 
+/// Reason why a trainer does not obey.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum ControlRefusal {
+    /// Control that another program has.
+    #[error("another program has the control; close it")]
+    Taken,
+    /// A trainer without a motor brake.
+    #[error("it cannot simulate a slope")]
+    NoSlope,
+    /// A result of the control point that has no other reason here.
+    #[error("it answers with result {0}")]
+    Result(u8),
+    /// A refusal of the write itself.
+    #[error("{0}")]
+    Write(RequestRefusal),
+}
+
 /// Progress of the control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum ControlPhase {
@@ -95,7 +116,7 @@ pub(crate) struct TrainerControl {
     engaged: bool,
     /// True if a load was not permitted, and none has been obeyed since.
     denied: bool,
-    refusal: Option<String>,
+    refusal: Option<ControlRefusal>,
 }
 
 impl TrainerControl {
@@ -116,9 +137,9 @@ impl TrainerControl {
         self.wanted = grade;
     }
 
-    /// Sentence on a trainer that does not obey.
-    pub(crate) fn refusal(&self) -> Option<&str> {
-        self.refusal.as_deref()
+    /// Reason why the trainer does not obey.
+    pub(crate) fn refusal(&self) -> Option<ControlRefusal> {
+        self.refusal
     }
 
     /// True if the trainer has got commands that have to be taken back, whatever it has answered.
@@ -166,9 +187,9 @@ impl TrainerControl {
     }
 
     /// Takes the answer to the write itself: its response code.
-    pub(crate) fn written(&mut self, now: Instant, response: u8, why: &str) {
+    pub(crate) fn written(&mut self, now: Instant, response: u8) {
         if response != 0 && self.unanswered.take().is_some() {
-            self.refuse(now, why);
+            self.refuse(now, ControlRefusal::Write(RequestRefusal::of(response)));
         }
     }
 
@@ -186,11 +207,11 @@ impl TrainerControl {
             NOT_PERMITTED if command != REQUEST_CONTROL && self.phase == ControlPhase::Obeys && !self.denied => {
                 (self.phase, self.denied) = (ControlPhase::Ask, true);
             }
-            NOT_PERMITTED => self.refuse(now, "another program has the control; close it"),
-            NOT_SUPPORTED if command == SIMULATION => self.refuse(now, "it cannot simulate a slope"),
+            NOT_PERMITTED => self.refuse(now, ControlRefusal::Taken),
+            NOT_SUPPORTED if command == SIMULATION => self.refuse(now, ControlRefusal::NoSlope),
             // A trainer that needs no start, and a load that comes again in a second.
             _ if command != REQUEST_CONTROL => self.done(command),
-            _ => self.refuse(now, &format!("it answers with result {result}")),
+            _ => self.refuse(now, ControlRefusal::Result(result)),
         }
     }
 
@@ -204,9 +225,9 @@ impl TrainerControl {
         }
     }
 
-    fn refuse(&mut self, now: Instant, why: &str) {
+    fn refuse(&mut self, now: Instant, why: ControlRefusal) {
         self.phase = ControlPhase::Refused(now);
-        self.refusal = Some(format!("the trainer cannot be controlled ({why}): its brake does not follow the road"));
+        self.refusal = Some(why);
     }
 }
 
@@ -273,7 +294,7 @@ mod tests {
         let mut control = TrainerControl::new();
         control.next(start);
         control.answered(start, &[0x80, 0, 5]);
-        assert!(control.refusal().unwrap().contains("another program has the control"));
+        assert_eq!(control.refusal(), Some(ControlRefusal::Taken));
         assert_eq!(control.next(start + Duration::from_secs(9)), None);
         let later = start + ASK_AGAIN;
         assert_eq!(control.next(later), Some(vec![0]));
@@ -296,7 +317,7 @@ mod tests {
         assert!(control.is_engaged());
         let mut control = obeying(start);
         control.next(start);
-        control.written(start, 6, "it refuses the value");
+        control.written(start, 6);
         assert!(control.is_engaged(), "the loads before the refused one are felt");
     }
 
@@ -311,11 +332,11 @@ mod tests {
             if let Some(command) = control.next(now) {
                 commands += 1;
                 control.answered(now, &[0x80, command[0], if command[0] == SIMULATION { 5 } else { 1 }]);
-                refused = control.refusal().map(str::to_owned).or(refused);
+                refused = control.refusal().or(refused);
             }
         }
         assert_eq!(commands, 6, "control, start and a load, twice");
-        assert!(refused.unwrap().contains("another program has the control"));
+        assert_eq!(refused, Some(ControlRefusal::Taken));
         // Control that was taken and given back is no refusal, however often, if loads are obeyed between.
         let mut control = obeying(start);
         for s in 0..20 {
@@ -338,11 +359,11 @@ mod tests {
         let mut control = obeying(start);
         control.next(start);
         control.answered(start, &[0x80, 0x11, 2]);
-        assert!(control.refusal().unwrap().contains("cannot simulate a slope"));
+        assert_eq!(control.refusal(), Some(ControlRefusal::NoSlope));
         let mut control = TrainerControl::new();
         control.next(start);
-        control.written(start, 6, "it refuses the value");
-        assert!(control.refusal().unwrap().contains("it refuses the value"));
+        control.written(start, 6);
+        assert_eq!(control.refusal(), Some(ControlRefusal::Write(RequestRefusal::Value)));
     }
 
     #[test]

@@ -17,6 +17,6 @@ pub(crate) mod url;
 pub mod wire;
 
 pub use config::TrainerConfig;
-pub use control::RoadLoad;
+pub use control::{ControlRefusal, RoadLoad};
 pub use decoder::TrainerDecoder;
 pub use url::{TrainerUrl, TrainerUrlError};

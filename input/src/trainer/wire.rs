@@ -102,15 +102,40 @@ pub fn short(uuid: &[u8; UUID_LENGTH]) -> Option<u16> {
     (self::uuid(short) == *uuid).then_some(short)
 }
 
-/// Words for a response code that is not 0.
-pub fn refusal(response: u8) -> &'static str {
-    match response {
-        1 => "it does not know this kind of message",
-        3 => "it has no such service",
-        4 => "it has no such characteristic",
-        5 => "the characteristic does not allow it",
-        6 => "it refuses the value",
-        _ => "it reports an error without a reason",
+/// Reason why a request was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum RequestRefusal {
+    /// An unknown kind of message.
+    #[error("it does not know this kind of message")]
+    Kind,
+    /// A service that is not there.
+    #[error("it has no such service")]
+    Service,
+    /// A characteristic that is not there.
+    #[error("it has no such characteristic")]
+    Characteristic,
+    /// An operation that the characteristic does not have.
+    #[error("the characteristic does not allow it")]
+    Operation,
+    /// A value that is refused.
+    #[error("it refuses the value")]
+    Value,
+    /// An error without a reason.
+    #[error("it reports an error without a reason")]
+    Unnamed,
+}
+
+impl RequestRefusal {
+    /// Reason behind a response code that is not 0.
+    pub fn of(response: u8) -> Self {
+        match response {
+            1 => Self::Kind,
+            3 => Self::Service,
+            4 => Self::Characteristic,
+            5 => Self::Operation,
+            6 => Self::Value,
+            _ => Self::Unnamed,
+        }
     }
 }
 

@@ -133,7 +133,7 @@ fn a_port_in_use_and_a_foreign_address_are_told() {
         (format!("dtrack://192.0.2.1:{port}"), "is no address of this machine"),
     ] {
         Loop::track(&url).until(expected, |it| match &it.devices.status()[0].state {
-            DeviceState::Absent(why) => why.contains(expected),
+            DeviceState::Absent(why) => why.to_string().contains(expected),
             DeviceState::Open => false,
         });
     }

@@ -192,7 +192,7 @@ fn what_is_missing_is_said_in_a_sentence() {
         let mut ride =
             Loop::start(&DevicesConfig { bicycle, space_mouse: false, gamepad: false, ..Default::default() });
         ride.until(expected, |it| match &it.devices.status()[0].state {
-            DeviceState::Absent(why) => why.contains(expected),
+            DeviceState::Absent(why) => why.to_string().contains(expected),
             DeviceState::Open => false,
         });
     }

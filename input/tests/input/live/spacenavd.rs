@@ -76,7 +76,7 @@ fn a_daemon_that_dies_lets_go_and_may_come_back() {
     let socket = directory.path().join("spnav.sock");
     let mut flight = Loop::start(&config(&socket));
     flight.until("a word about the daemon", |it| match &it.devices.status()[0].state {
-        DeviceState::Absent(why) => why.contains("spacenavd does not run"),
+        DeviceState::Absent(why) => why.to_string().contains("spacenavd does not run"),
         DeviceState::Open => false,
     });
     for _ in 0..2 {

@@ -14,8 +14,9 @@ use std::time::{Duration, Instant};
 
 use super::frames::Loop;
 use crate::recordings::{assert_same_bits, place, read, record};
-use input::devices::DeviceState;
+use input::devices::{DeviceNote, DeviceState};
 use input::recording::{ControlsRecord, RecordingEntry};
+use input::trainer::ControlRefusal;
 use input::{Desk, DevicesConfig, RoadLoad, SECOND, Sample, SampleSource};
 
 const FITNESS_MACHINE: u16 = 0x1826;
@@ -218,7 +219,7 @@ fn until_at(riding: &mut Loop, machine: &Machine, speed: u16) {
 
 fn until_absent(riding: &mut Loop, expected: &str) {
     riding.until(expected, |it| match &it.devices.status()[0].state {
-        DeviceState::Absent(why) => why.contains(expected),
+        DeviceState::Absent(why) => why.to_string().contains(expected),
         DeviceState::Open => false,
     });
 }
@@ -358,9 +359,7 @@ fn a_trainer_that_refuses_control_is_ridden_and_the_refusal_told() {
     let machine = Machine::start();
     machine.result.store(5, Ordering::Relaxed);
     let mut riding = Loop::start(&machine.config());
-    riding.until("the refusal", |it| {
-        it.devices.status()[0].note.as_deref().is_some_and(|note| note.contains("another program has the control"))
-    });
+    riding.until("the refusal", |it| it.devices.status()[0].note == Some(DeviceNote::NoControl(ControlRefusal::Taken)));
     until_at(&mut riding, &machine, 3600);
     assert_eq!(machine.written(), [vec![0]]);
     drop(riding);

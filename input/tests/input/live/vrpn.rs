@@ -125,7 +125,7 @@ pub(super) fn until_at(tracking: &mut Loop, x: f64) {
 
 fn until_absent(tracking: &mut Loop, expected: &str) {
     tracking.until(expected, |it| match &it.devices.status()[0].state {
-        DeviceState::Absent(why) => why.contains(expected),
+        DeviceState::Absent(why) => why.to_string().contains(expected),
         DeviceState::Open => false,
     });
 }
