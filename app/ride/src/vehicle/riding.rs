@@ -36,7 +36,9 @@ impl Vehicle {
             let before = self.state.position;
             self.drive_on(span_s, controls, surroundings);
             self.hold_back(before, wall, free_m, span_s);
-            match walls::settled(surroundings, wall, self.state.position, self.distance_m(left_s)) {
+            let settled = walls::settled(surroundings, wall, self.state.position, self.distance_m(left_s));
+            let keeps = self.settings.keeps_to_ground;
+            match settled.filter(|(end, _)| !keeps || walls::leads_through_none(wall, *end - before, free_m)) {
                 Some((position, wall_there)) => {
                     self.state.position = position;
                     wall = wall_there;

@@ -95,6 +95,19 @@ pub(super) fn settled(
     None
 }
 
+/// True if the straight way of a stride, with its corrections, from a place where `wall` is the nearest is known to
+/// lead through none: it is shorter than the way to the nearest wall, or stays on the near side of one that the shortest
+/// stride could pass. A correction away from a wall that counts only at the height where the stride ends may have led
+/// through another. A place in a wall is on either side of it.
+pub(super) fn leads_through_none(wall: Option<Wall>, way: DVec3, free_m: f64) -> bool {
+    let way_m = libm::hypot(way.x, way.z);
+    let Some(wall) = wall else { return way_m < free_m.max(FREE_M) + BODY_RADIUS_M };
+    let is_beside = wall.distance < 2.0 * SHORTEST_STRIDE_M && way_m < 2.0 * SHORTEST_STRIDE_M;
+    way_m < wall.distance
+        || wall.distance <= ROUNDING_M
+        || (is_beside && wall.distance + way.dot(wall.normal) > ROUNDING_M)
+}
+
 /// Celerity with which at most `distance_m` metres are covered in `own_s` seconds.
 pub(super) fn slowed(celerity: Celerity, distance_m: f64, own_s: f64, light_speed: LightSpeed) -> Celerity {
     celerity.capped(libm::asinh(light_speed.celerity(distance_m / own_s)))
