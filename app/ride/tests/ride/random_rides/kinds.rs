@@ -7,12 +7,14 @@ use physics::{Celerity, Event};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use ride::{IntegratorKind, LightSpeed, Notice, Vehicle, VehicleSettings};
-use scene::OpenPlane;
 use scene::collision::Collision;
+use scene::{OpenPlane, Surroundings};
 
 use crate::vehicle_hull::place_of;
 
 const STEP_S: f64 = 1.0 / 240.0;
+/// Least distance of a vehicle from a wall, metres: the reach of its body, save for rounding.
+const BODY_M: f64 = 0.39;
 /// Half the width of a yard, metres.
 const HALF_M: f32 = 2.5;
 /// Height of a yard's middle above its edge, metres: with it, the height of a vehicle above the edge varies.
@@ -67,6 +69,32 @@ fn a_step_that_counts_again_pushes_no_vehicle_through_the_wall_behind_it() {
                         assert!(is_inside, "{kind:?}, c = {light_m_s}, {high} m high, {deep} m deep: at {place}");
                     }
                 }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_motion_into_the_ground_ends_clear_of_walls() {
+    let mut random = ChaCha8Rng::seed_from_u64(2663);
+    for high in [0.3, 0.5, 0.7] {
+        // A car on the step, which is a terrace, or below it.
+        let yard = yard(high, 1.3);
+        for _ in 0..400 {
+            let mut between = |most: f64| random.random_range(-most..most);
+            let place = DVec3::new(between(2.0), f64::from(high) + 0.05, between(2.0));
+            if yard.nearest_wall(place, 0.5).is_some() {
+                continue;
+            }
+            let motion = DVec3::new(between(1.0), between(4.0), between(1.0)).normalize_or(DVec3::NEG_Y);
+            let celerity = Celerity::new(motion * libm::exp10(between(4.0))).unwrap();
+            let state = WorldlineState::new(Event { ct: 0.0, position: place }, celerity, DQuat::IDENTITY);
+            let settings = VehicleSettings::default();
+            let mut car = Vehicle::new(LightSpeed::OLD_TOWN, VehicleKind::Drive, state, settings).unwrap();
+            for _ in 0..60 {
+                car.step(STEP_S, &Controls::default(), &yard);
+                let wall = yard.nearest_wall(car.state().position, BODY_M);
+                assert_eq!(wall, None, "at {} from the motion {motion}", car.state().position);
             }
         }
     }
