@@ -69,7 +69,8 @@ impl Vehicle {
         let wall = self.cleared(way, surroundings)?;
         if self.settings.keeps_to_ground && self.keep_footing(way.before, surroundings) {
             // At another height, there are other walls.
-            return self.cleared(way, surroundings);
+            let wall = walls::nearest(surroundings, self.state.position, self.distance_m(way.left_s));
+            return if walls::is_too_near(way.wall, wall) { self.cleared(way, surroundings) } else { Some(wall) };
         }
         Some(wall)
     }
