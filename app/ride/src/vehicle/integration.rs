@@ -11,6 +11,9 @@ use super::vehicle::Vehicle;
 const LARGEST_CHANGE: f64 = 0.005;
 /// Largest number of parts of one step.
 const MOST_PARTS: f64 = 64.0;
+/// Largest change of that kind for which the exact method is asked. It needs two parts for each unit: beyond, a step
+/// takes it longer than the step lasts, and the ride comes to a stand.
+const LARGEST_EXACT_CHANGE: f64 = 1000.0;
 
 impl Vehicle {
     /// Integrates the worldline, caps the rapidity, and advances the odometer.
@@ -19,6 +22,10 @@ impl Vehicle {
         let step = self.light_speed.metres(own_s);
         let taken = match self.settings.integrator {
             IntegratorKind::Rk4 => self.in_short_steps(step, control),
+            IntegratorKind::Exact if self.change(step, control) > LARGEST_EXACT_CHANGE => {
+                self.tell(Notice::TakenByRk4);
+                self.in_short_steps(step, control)
+            }
             IntegratorKind::Exact => Exact.step(&self.state, step, control),
             IntegratorKind::DormandPrince => DormandPrince::default().step(&self.state, step, control),
         };
@@ -42,12 +49,17 @@ impl Vehicle {
     /// State after a step by RK4, in parts in which the rapidity changes by [`LARGEST_CHANGE`] at most, while thrust
     /// and turn stay what they are now.
     fn in_short_steps(&self, step: f64, control: &dyn Control) -> Result<WorldlineState, WorldlineError> {
-        let Thrust { acceleration, turn_rate } = control.thrust(&self.state);
-        let change = (acceleration.length() + turn_rate.length()) * step;
+        let change = self.change(step, control);
         if change <= LARGEST_CHANGE || !change.is_finite() {
             return Rk4.step(&self.state, step, control);
         }
         let parts = (change / LARGEST_CHANGE).ceil().min(MOST_PARTS);
         (0..parts as usize).try_fold(self.state, |state, _| Rk4.step(&state, step / parts, control))
+    }
+
+    /// Change of the rapidity, plus turn in radians, in a step with the thrust and turn of now.
+    fn change(&self, step: f64, control: &dyn Control) -> f64 {
+        let Thrust { acceleration, turn_rate } = control.thrust(&self.state);
+        (acceleration.length() + turn_rate.length()) * step
     }
 }

@@ -17,6 +17,18 @@ use super::walls::{self, MOST_STRIDES};
 /// Sine of a slope steeper than any road.
 const STEEPEST_ROAD: f64 = 0.9;
 
+/// Stride before its end is made clear of walls.
+struct StrideWay {
+    /// Place of its beginning.
+    before: DVec3,
+    /// Wall nearest to that.
+    wall: Option<Wall>,
+    /// Length that is free, metres.
+    free_m: f64,
+    /// Time of the step from there on, seconds.
+    left_s: f64,
+}
+
 impl Vehicle {
     /// Takes one piece of a step on the ground, in strides shorter than any wall is thick.
     pub(super) fn ride(&mut self, own_s: f64, controls: &SafeControls, surroundings: &dyn Surroundings) {
@@ -36,14 +48,9 @@ impl Vehicle {
             let before = self.state.position;
             self.drive_on(span_s, controls, surroundings);
             self.hold_back(before, wall, free_m, span_s);
-            match walls::settled(surroundings, wall, self.state.position, self.distance_m(left_s)) {
-                Some((position, wall_there)) => {
-                    self.state.position = position;
-                    wall = wall_there;
-                    if self.settings.keeps_to_ground && self.keep_footing(before, surroundings) {
-                        wall = walls::nearest(surroundings, self.state.position, self.distance_m(left_s));
-                    }
-                }
+            let way = StrideWay { before, wall, free_m, left_s };
+            match self.ended(&way, surroundings) {
+                Some(wall_there) => wall = wall_there,
                 None => {
                     self.state.position = before;
                     self.state.celerity = Celerity::ZERO;
@@ -54,6 +61,29 @@ impl Vehicle {
             }
             left_s -= span_s;
         }
+    }
+
+    /// Ends a stride clear of walls and on the ground, and returns the nearest wall there. `None` if no such end is found
+    /// to which the stride leads through no wall.
+    fn ended(&mut self, way: &StrideWay, surroundings: &dyn Surroundings) -> Option<Option<Wall>> {
+        let wall = self.cleared(way, surroundings)?;
+        if self.settings.keeps_to_ground && self.keep_footing(way.before, surroundings) {
+            // At another height, there are other walls.
+            let wall = walls::nearest(surroundings, self.state.position, self.distance_m(way.left_s));
+            return if walls::is_too_near(way.wall, wall) { self.cleared(way, surroundings) } else { Some(wall) };
+        }
+        Some(wall)
+    }
+
+    /// Moves the end of a stride clear of walls, and returns the nearest wall there.
+    fn cleared(&mut self, way: &StrideWay, surroundings: &dyn Surroundings) -> Option<Option<Wall>> {
+        let reach_m = self.distance_m(way.left_s);
+        let (end, wall) = walls::settled(surroundings, way.wall, self.state.position, reach_m)?;
+        if self.settings.keeps_to_ground && !walls::leads_through_none(way.wall, end - way.before, way.free_m) {
+            return None;
+        }
+        self.state.position = end;
+        Some(wall)
     }
 
     /// Holds the vehicle to the ground that it was on before a stride. True if that has moved it.

@@ -81,7 +81,7 @@ pub(super) fn settled(
     /// Number of corrections. Two walls of a corner are cleared in turns; with this many, the rest in a right angle
     /// is below the rounding.
     const PUSHES: usize = 8;
-    let clearance = before.map_or(BODY_RADIUS_M, |wall| wall.distance.min(BODY_RADIUS_M));
+    let clearance = clearance_m(before);
     let mut position = to;
     for _ in 0..PUSHES {
         let wall = nearest(surroundings, position, distance_m);
@@ -93,6 +93,32 @@ pub(super) fn settled(
         }
     }
     None
+}
+
+/// Least distance that a vehicle keeps from walls, metres: the body's radius, or less where it has begun nearer.
+fn clearance_m(before: Option<Wall>) -> f64 {
+    before.map_or(BODY_RADIUS_M, |wall| wall.distance.min(BODY_RADIUS_M))
+}
+
+/// True if a wall that counts where the ground has moved the vehicle is nearer than an elbow can yield, and nearer than
+/// the wall at the start.
+pub(super) fn is_too_near(before: Option<Wall>, wall: Option<Wall>) -> bool {
+    /// Distance by which an elbow yields, metres.
+    const ELBOW_M: f64 = 0.015;
+    wall.is_some_and(|wall| wall.distance < clearance_m(before).min(BODY_RADIUS_M - ELBOW_M))
+}
+
+/// True if the straight way of a stride, with its corrections, from a place where `wall` is the nearest is known to
+/// lead through none: it is shorter than the way to the nearest wall, or stays on the near side of one that the shortest
+/// stride could pass. A correction away from a wall that counts only at the height where the stride ends may have led
+/// through another. A place in a wall is on either side of it.
+pub(super) fn leads_through_none(wall: Option<Wall>, way: DVec3, free_m: f64) -> bool {
+    let way_m = libm::hypot(way.x, way.z);
+    let Some(wall) = wall else { return way_m < free_m.max(FREE_M) + BODY_RADIUS_M };
+    let is_beside = wall.distance < 2.0 * SHORTEST_STRIDE_M && way_m < 2.0 * SHORTEST_STRIDE_M;
+    way_m < wall.distance
+        || wall.distance <= ROUNDING_M
+        || (is_beside && wall.distance + way.dot(wall.normal) > ROUNDING_M)
 }
 
 /// Celerity with which at most `distance_m` metres are covered in `own_s` seconds.

@@ -26,7 +26,8 @@ const LEAST_M: f64 = 0.399;
 /// Half the extent of the closed room, metres.
 const ROOM: Vec3 = Vec3::new(5.0, 2.5, 4.0);
 
-fn place_of(triangles: &[[Vec3; 3]]) -> Collision {
+/// Solid place of these triangles.
+pub(super) fn place_of(triangles: &[[Vec3; 3]]) -> Collision {
     let positions = triangles.concat();
     let count = positions.len();
     let mesh = Mesh {

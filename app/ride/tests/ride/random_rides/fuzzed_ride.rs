@@ -165,9 +165,7 @@ fn setup(random: &mut ChaCha8Rng, ground: &RidingGround) -> Setup {
     };
     let mut start = RideStart::at_rest(position, look, DVec3::Y);
     if random.random_range(0..6) == 0 {
-        // Beyond, a turn on the ground takes the exact integrator longer than the ride.
-        let most = if kind == VehicleKind::Fly { 8.0 } else { 2.0 };
-        let celerity = look.normalize_or(DVec3::X) * libm::exp10(random.random_range(-1.0..most));
+        let celerity = look.normalize_or(DVec3::X) * libm::exp10(random.random_range(-1.0..8.0));
         start.celerity = celerity.to_array();
     }
     let integrators = [IntegratorKind::Rk4, IntegratorKind::Rk4, IntegratorKind::Exact, IntegratorKind::DormandPrince];

@@ -7,6 +7,7 @@
 mod devices;
 #[allow(dead_code, reason = "the example tells more of a ride")]
 mod fuzzed_ride;
+mod kinds;
 #[allow(dead_code, reason = "the example tells more of the streets")]
 mod streets;
 

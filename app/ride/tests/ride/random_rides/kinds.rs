@@ -1,0 +1,116 @@
+//! Law: the kinds of rides that once broke a law of random rides keep it. Each test rides in a small place of its kind.
+
+use glam::{DQuat, DVec3, Vec3};
+use input::{Controls, VehicleKind};
+use physics::worldline::WorldlineState;
+use physics::{Celerity, Event};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use ride::{IntegratorKind, LightSpeed, Notice, Vehicle, VehicleSettings};
+use scene::collision::Collision;
+use scene::{OpenPlane, Surroundings};
+
+use crate::vehicle_hull::place_of;
+
+const STEP_S: f64 = 1.0 / 240.0;
+/// Least distance of a vehicle from a wall, metres: the reach of its body, less an elbow.
+const BODY_M: f64 = 0.384;
+/// Half the width of a yard, metres.
+const HALF_M: f32 = 2.5;
+/// Height of a yard's middle above its edge, metres: with it, the height of a vehicle above the edge varies.
+const FALL_M: f32 = 0.05;
+
+/// Yard with thin walls, and a doorstep all along them, this high and deep, metres.
+fn yard(high: f32, deep: f32) -> Collision {
+    let mut triangles = Vec::new();
+    let mut quad = |[a, b, c, d]: [Vec3; 4]| triangles.extend([[a, b, c], [a, c, d]]);
+    let inner = HALF_M - deep;
+    let ring = |half: f32, y: f32| {
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, z)| Vec3::new(half * x, y, half * z))
+    };
+    for side in 0..4 {
+        let next = (side + 1) % 4;
+        let mut between = |[half, y]: [f32; 2], [to_half, to_y]: [f32; 2]| {
+            let (from, to) = (ring(half, y), ring(to_half, to_y));
+            quad([from[side], from[next], to[next], to[side]]);
+        };
+        // The ground falls away from the middle, and goes on beyond the walls.
+        between([0.0, FALL_M], [inner, 0.0]);
+        between([inner, 0.0], [50.0, 0.0]);
+        between([HALF_M, 0.0], [HALF_M, 3.0]);
+        between([inner, 0.0], [inner, high]);
+        between([inner, high], [HALF_M, high]);
+    }
+    place_of(&triangles)
+}
+
+#[test]
+fn a_step_that_counts_again_pushes_no_vehicle_through_the_wall_behind_it() {
+    let mut random = ChaCha8Rng::seed_from_u64(1907);
+    for high in [0.201, 0.205, 0.21, 0.22, 0.23, 0.24] {
+        for deep in [0.05, 0.15, 0.32, 0.5] {
+            let yard = yard(high, deep);
+            for kind in [VehicleKind::Bicycle, VehicleKind::Drive] {
+                for (light_m_s, celerity) in [(30.0 / 3.6, 2.0), (30.0 / 3.6, 0.2), (3e8, 0.0), (3e8, 1e-6)] {
+                    let mut ahead = || DQuat::from_rotation_y(random.random_range(0.0..6.3));
+                    let orientation = ahead();
+                    let celerity = Celerity::new(orientation * DVec3::NEG_Z * celerity).unwrap();
+                    let state = WorldlineState::new(Event::default(), celerity, orientation);
+                    let light_speed = LightSpeed::new(light_m_s).unwrap();
+                    let mut vehicle = Vehicle::new(light_speed, kind, state, VehicleSettings::default()).unwrap();
+                    for tick in 0..480 {
+                        let mut between = |most: f64| random.random_range(-most..most);
+                        let steer_rad = if tick % 60 < 30 { 0.0 } else { between(0.6) };
+                        let thrust = [between(1.0), 0.0, between(1.0) - 0.5];
+                        let controls = Controls { thrust, steer_rad, wheel_speed: Some(8.0), ..Controls::default() };
+                        vehicle.step(STEP_S, &controls, &yard);
+                        let place = vehicle.state().position;
+                        let is_inside = place.x.abs().max(place.z.abs()) < f64::from(HALF_M);
+                        assert!(is_inside, "{kind:?}, c = {light_m_s}, {high} m high, {deep} m deep: at {place}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_motion_into_the_ground_ends_clear_of_walls() {
+    let mut random = ChaCha8Rng::seed_from_u64(2663);
+    for high in [0.3, 0.5, 0.7] {
+        // A car on the step, which is a terrace, or below it.
+        let yard = yard(high, 1.3);
+        for _ in 0..400 {
+            let mut between = |most: f64| random.random_range(-most..most);
+            let place = DVec3::new(between(2.0), f64::from(high) + 0.05, between(2.0));
+            if yard.nearest_wall(place, 0.5).is_some() {
+                continue;
+            }
+            let motion = DVec3::new(between(1.0), between(4.0), between(1.0)).normalize_or(DVec3::NEG_Y);
+            let celerity = Celerity::new(motion * libm::exp10(between(4.0))).unwrap();
+            let state = WorldlineState::new(Event { ct: 0.0, position: place }, celerity, DQuat::IDENTITY);
+            let settings = VehicleSettings::default();
+            let mut car = Vehicle::new(LightSpeed::OLD_TOWN, VehicleKind::Drive, state, settings).unwrap();
+            for _ in 0..60 {
+                car.step(STEP_S, &Controls::default(), &yard);
+                let wall = yard.nearest_wall(car.state().position, BODY_M);
+                assert_eq!(wall, None, "at {} from the motion {motion}", car.state().position);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_exact_method_leaves_steps_that_would_outlast_their_time_to_rk4() {
+    // A handlebar turns a bicycle at the same rate at any celerity, and its celerity with it.
+    let controls = Controls { steer_rad: 0.5, ..Controls::default() };
+    for (celerity, outlasts) in [(1e2, false), (1e6, true)] {
+        let start = Celerity::new(DVec3::NEG_Z * celerity).unwrap();
+        let state = WorldlineState::new(Event::default(), start, DQuat::IDENTITY);
+        let settings = VehicleSettings { integrator: IntegratorKind::Exact, ..VehicleSettings::default() };
+        let mut bicycle = Vehicle::new(LightSpeed::OLD_TOWN, VehicleKind::Bicycle, state, settings).unwrap();
+        bicycle.step(STEP_S, &controls, &OpenPlane);
+        assert_eq!(bicycle.notices().contains(&Notice::TakenByRk4), outlasts, "at the celerity {celerity}");
+        assert!(bicycle.state().position.is_finite() && bicycle.state().celerity.magnitude() > 0.5 * celerity);
+    }
+}
