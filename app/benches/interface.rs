@@ -136,7 +136,7 @@ impl<'a> Bench<'a> {
                 Target::Window(Box::new(picture), Box::new(sheet))
             }
             Some(side) => {
-                let mut display = Display::built_in("cave4")?;
+                let mut display = Display::built_in("cave4").ok_or("cave4 is built in")?;
                 let wall = display.channels[0].viewport[2];
                 let scaled = |pixels: u32| pixels * side / wall;
                 for channel in &mut display.channels {
