@@ -282,3 +282,25 @@ fn panel(ui: &Ui, name: &'static str, at: Pos2, size: Vec2, contents: impl FnOnc
         contents(ui, area);
     });
 }
+
+#[cfg(test)]
+mod tests {
+    //! Law: the diagram names the clocks that it watches in the rider's language.
+
+    use super::*;
+
+    #[test]
+    fn clocks_are_watched_by_their_names_in_the_riders_language() {
+        let clocks = built_in::train::build().clocks;
+        let resting: Vec<&SceneClock> =
+            clocks.iter().filter(|clock| clock.motion.is_none()).take(MOST_CLOCKS).collect();
+        assert!(!resting.is_empty());
+        for (language, of) in [
+            (Language::English, (|name| &name.english) as fn(&LocalName) -> &String),
+            (Language::German, |name| &name.german),
+        ] {
+            let names: Vec<String> = watched(&clocks, language).into_iter().map(|clock| clock.name).collect();
+            assert_eq!(names, resting.iter().map(|clock| of(&clock.name).clone()).collect::<Vec<_>>());
+        }
+    }
+}

@@ -97,7 +97,7 @@ pub fn fault(reason: &DeviceFault) -> String {
         DeviceFault::NoGreeting => "er meldet sich nicht; ist es ein VRPN-Server?".to_owned(),
         DeviceFault::Silent(seconds) => format!("seit {seconds} s stumm"),
         DeviceFault::SilentWithoutDevices(seconds) => {
-            format!("seit {seconds} s stumm; er hat kein Gerät beschrieben")
+            format!("seit {seconds} s stumm; er hat kein Gerät gemeldet")
         }
         DeviceFault::SilentWithOthers(seconds, others) => {
             format!("seit {seconds} s stumm; dieses Gerät hat er nicht, aber {others}")
@@ -115,11 +115,16 @@ fn trainer(error: &TrainerError) -> String {
         TrainerError::Wire(error) => error.to_string(),
         TrainerError::NoFitnessMachine(services) => {
             let services = short_numbers(services, WORDS);
-            format!("er hat keinen Fitness-Machine-Dienst (1826), sondern {services}; einen mit FTMS nennen")
+            format!(
+                "er hat keinen Fitness-Machine-Dienst (1826), sondern {services}; einen Rollentrainer mit FTMS nennen"
+            )
         }
         TrainerError::NoBikeData(characteristics) => {
             let characteristics = short_numbers(characteristics, WORDS);
-            format!("er sendet keine Fahrraddaten (2ad2), sondern {characteristics}; den eines Fahrrads nennen")
+            format!(
+                "er sendet keine Fahrraddaten (2ad2), sondern {characteristics}; den Rollentrainer eines Fahrrads \
+                 nennen"
+            )
         }
         TrainerError::Refused(request, why) => {
             let request = match request {

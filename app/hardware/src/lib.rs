@@ -1,5 +1,5 @@
-//! A rider's hardware in the program: its set-up file, the tracking of the head by it, and lines on what it sends, in the
-//! rider's language.
+//! A rider's hardware in the program: its set-up file, the tracking of the head by it, and lines on what it sends, in
+//! the rider's language.
 
 mod german;
 mod head;

@@ -534,7 +534,8 @@ phrases! {
     DrawnAt,
     /// Line on the drawing; {0}: triangles, {1}: renderer, {2}: graphics device.
     DrawnBy,
-    /// Line on several windows; {0}: windows, {1}: frame, {2}: skew, {3}: longest skew, milliseconds, {4}: windows left out, {5}: turns held.
+    /// Line on several windows; {0}: windows, {1}: frame, {2} and {3}: skew and longest skew, milliseconds,
+    /// {4}: windows left out, {5}: turns held.
     InStep,
     /// Title of the operator's window.
     OperatorTitle,
