@@ -16,6 +16,7 @@ use super::state::WorldlineState;
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrince {
     tolerance: f64,
+    most_trials: usize,
 }
 
 const TABLEAU: Tableau<7> = Tableau {
@@ -54,17 +55,23 @@ impl DormandPrince {
     /// The tolerance is below [`DormandPrince::LEAST_TOLERANCE`], above 1, or not a number.
     pub fn new(tolerance: f64) -> Result<Self, WorldlineError> {
         if (Self::LEAST_TOLERANCE..=1.0).contains(&tolerance) {
-            Ok(Self { tolerance })
+            Ok(Self { tolerance, ..Self::default() })
         } else {
             Err(WorldlineError::Tolerance { tolerance })
         }
+    }
+
+    /// The same integrator that gives a step up after this number of trials, taken or rejected, instead of 100 000.
+    #[must_use]
+    pub fn with_most_trials(self, most_trials: usize) -> Self {
+        Self { most_trials, ..self }
     }
 }
 
 impl Default for DormandPrince {
     /// A tolerance of 1e-8.
     fn default() -> Self {
-        Self { tolerance: 1e-8 }
+        Self { tolerance: 1e-8, most_trials: MOST_TRIALS }
     }
 }
 
@@ -76,7 +83,7 @@ impl Integrator for DormandPrince {
         let mut state = *state;
         let mut first = Rates::of(&state, control)?;
         let (mut remaining, mut trial) = (step, step);
-        for _ in 0..MOST_TRIALS {
+        for _ in 0..self.most_trials {
             let error = match self.attempt(&state, trial, step, first, control) {
                 Ok(attempt) => {
                     if attempt.error <= 1.0 {

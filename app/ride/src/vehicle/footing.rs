@@ -7,7 +7,7 @@
 //! has run into, and stops where there is no ground.
 
 use glam::DVec3;
-use scene::Surroundings;
+use scene::{Ground, Surroundings};
 
 /// Height above the ground up to which a vehicle moves freely, metres: a kerb, and its ramp.
 const LOOSE_M: f64 = 0.25;
@@ -38,11 +38,12 @@ impl Footing {
             return Self::Free;
         }
         let Some(ground) = surroundings.height_below(to + SUNK_M * DVec3::Y) else {
-            return Self::Edge(last_on_ground(surroundings, before, to));
+            let last = last_on_ground(surroundings, before, to);
+            let highest = surroundings.height_below(last).map_or(last.y, |ground| highest(ground, before, last));
+            return Self::Edge(DVec3 { y: last.y.min(highest), ..last });
         };
         let rise_m = to.y - ground.height;
-        let way_m = libm::hypot(to.x - before.x, to.z - before.z);
-        let highest = (ground.height + LOOSE_M).max(before.y - SINK * way_m);
+        let highest = highest(ground, before, to);
         if to.y > highest {
             Self::Level(DVec3 { y: highest, ..to })
         } else if rise_m < -scene::collision::STEP {
@@ -51,6 +52,12 @@ impl Footing {
             Self::Free
         }
     }
+}
+
+/// Greatest height at `to`, above this ground, after a stride from `before`.
+fn highest(ground: Ground, before: DVec3, to: DVec3) -> f64 {
+    let way_m = libm::hypot(to.x - before.x, to.z - before.z);
+    (ground.height + LOOSE_M).max(before.y - SINK * way_m)
 }
 
 /// Last place with ground below on the way from `before`, which has some, to `to`.

@@ -14,6 +14,8 @@ const MOST_PARTS: f64 = 64.0;
 /// Largest change of that kind for which the exact method is asked. It needs two parts for each unit: beyond, a step
 /// takes it longer than the step lasts, and the ride comes to a stand.
 const LARGEST_EXACT_CHANGE: f64 = 1000.0;
+/// Largest number of trials that DOPRI5 may take for a step: more of them, too, take longer than the step lasts.
+const MOST_TRIALS: usize = 1000;
 
 impl Vehicle {
     /// Integrates the worldline, caps the rapidity, and advances the odometer.
@@ -27,7 +29,9 @@ impl Vehicle {
                 self.in_short_steps(step, control)
             }
             IntegratorKind::Exact => Exact.step(&self.state, step, control),
-            IntegratorKind::DormandPrince => DormandPrince::default().step(&self.state, step, control),
+            IntegratorKind::DormandPrince => {
+                DormandPrince::default().with_most_trials(MOST_TRIALS).step(&self.state, step, control)
+            }
         };
         let taken = taken.or_else(|_| {
             self.tell(Notice::TakenByRk4);

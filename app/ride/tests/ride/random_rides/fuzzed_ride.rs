@@ -31,6 +31,8 @@ const HULL_ROUNDING: f64 = 0.05;
 const MAD_S: f64 = 1.0;
 /// Time of a key until the vehicle has to have moved, seconds.
 const FRESH_S: f64 = 0.5;
+/// The same for a rider with patience, seconds: a wheel that turned forward has to stop before it turns backward.
+const PATIENT_S: f64 = 5.0;
 /// Distance that a fresh key has to move the vehicle, metres; less where light is slower than [`SLOW_M_S`].
 const MOVED_M: f64 = 0.01;
 /// Speed of light below which thrust moves a vehicle less, m/s.
@@ -72,8 +74,8 @@ pub enum MovedBy {
     Sideways,
     /// The key S.
     Backward,
-    /// A restart, then the key W.
-    Restart,
+    /// One of these, held for longer.
+    Patience,
 }
 
 /// Figures of a ride that kept the laws.
@@ -250,15 +252,16 @@ impl Rider<'_> {
         Ok(frame)
     }
 
-    /// Frames with these samples at their beginning, for [`FRESH_S`]. True if they move the vehicle by [`MOVED_M`], or
-    /// by what its own time leaves of that: a head far ahead of a vehicle that speeds up has a faster clock.
-    fn moves_with(&mut self, samples: &[Sample]) -> Result<bool, String> {
+    /// Frames with these samples at their beginning, for a time in seconds. True if they move the vehicle by
+    /// [`MOVED_M`], or by what its own time leaves of that: a head far ahead of a vehicle that speeds up has a faster
+    /// clock.
+    fn moves_with(&mut self, samples: &[Sample], time_s: f64) -> Result<bool, String> {
         let vehicle = self.simulation.vehicle();
         let (from, light_m_s) = (vehicle.state().position, vehicle.light_speed().speed_of_light_m_s());
         let mut farthest_m: f64 = 0.0;
         let mut own_s = 0.0;
         let mut before_s = vehicle.odometer().own_s;
-        for number in 0..(60.0 * FRESH_S) as usize {
+        for number in 0..(60.0 * time_s) as usize {
             let at = self.at + SECOND / 60;
             let frame = self.frame(at, if number == 0 { samples } else { &[] })?;
             farthest_m = farthest_m.max(frame.vehicle.state().position.distance(from));
@@ -266,7 +269,7 @@ impl Rider<'_> {
             own_s += (now_s - before_s).max(0.0);
             before_s = now_s;
         }
-        let share = (own_s / FRESH_S).min(1.0);
+        let share = (own_s / time_s).min(1.0);
         Ok(farthest_m > MOVED_M * (light_m_s / SLOW_M_S).min(1.0) * share * share)
     }
 
@@ -278,19 +281,19 @@ impl Rider<'_> {
             clear.push(Sample::action(at, &Action::TogglePause));
         }
         clear.push(Sample::action(at, &Action::TimeScale(1.0)));
-        let restart = Sample::action(at, &Action::Restart);
-        let trials: [(MovedBy, &[KeyboardKey]); 5] = [
-            (MovedBy::Ahead, &[KeyboardKey::W]),
-            (MovedBy::Sideways, &[KeyboardKey::W, KeyboardKey::A]),
-            (MovedBy::Sideways, &[KeyboardKey::W, KeyboardKey::D]),
-            (MovedBy::Backward, &[KeyboardKey::S]),
-            (MovedBy::Restart, &[KeyboardKey::W]),
+        let trials: [(MovedBy, f64, &[KeyboardKey]); 7] = [
+            (MovedBy::Ahead, FRESH_S, &[KeyboardKey::W]),
+            (MovedBy::Sideways, FRESH_S, &[KeyboardKey::W, KeyboardKey::A]),
+            (MovedBy::Sideways, FRESH_S, &[KeyboardKey::W, KeyboardKey::D]),
+            (MovedBy::Backward, FRESH_S, &[KeyboardKey::S]),
+            (MovedBy::Patience, PATIENT_S, &[KeyboardKey::S]),
+            (MovedBy::Patience, PATIENT_S, &[KeyboardKey::W, KeyboardKey::A]),
+            (MovedBy::Patience, PATIENT_S, &[KeyboardKey::W, KeyboardKey::D]),
         ];
-        for (moved_by, keys) in trials {
+        for (moved_by, time_s, keys) in trials {
             clear.push(Sample::closed(self.at, SampleSource::Keyboard));
-            clear.extend((moved_by == MovedBy::Restart).then(|| restart.clone()));
             clear.extend(keys.iter().map(|&key| Sample::key(self.at, key, true)));
-            if self.moves_with(&clear)? {
+            if self.moves_with(&clear, time_s)? {
                 return Ok(moved_by);
             }
             clear.clear();

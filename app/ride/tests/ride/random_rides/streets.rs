@@ -9,8 +9,10 @@ use scene::Surroundings;
 const CELL_M: f64 = 0.25;
 /// Least distance of a cell's middle from a wall, metres: that of a vehicle's middle, less half a cell's diagonal.
 const CLEAR_M: f64 = 0.2;
-/// Greatest rise from a cell to the next, metres.
-const RISE_M: f64 = 0.3;
+/// Greatest height of a vehicle above the ground on which it rides fast, metres. It climbs and sees walls from there.
+const LIFTED_M: f64 = 0.25;
+/// Greatest rise from a cell to the next, metres: a kerb's from that height.
+const RISE_M: f64 = scene::collision::STEP + LIFTED_M;
 
 /// Cells that are connected with the circuit.
 pub struct Streets {
@@ -28,10 +30,10 @@ impl Streets {
                 continue;
             }
             let middle = DVec3::new(f64::from(at[0]) * CELL_M, from_y, f64::from(at[1]) * CELL_M);
-            let Some(ground) = surroundings.height_below(middle) else { continue };
+            let Some(ground) = surroundings.height_below(middle + LIFTED_M * DVec3::Y) else { continue };
             let place = DVec3 { y: ground.height, ..middle };
             let is_street = (ground.height - from_y).abs() < RISE_M;
-            if !is_street || surroundings.nearest_wall(place, CLEAR_M).is_some() {
+            if !is_street || surroundings.nearest_wall(place + LIFTED_M * DVec3::Y, CLEAR_M).is_some() {
                 continue;
             }
             cells.insert(at);
