@@ -1,6 +1,6 @@
 //! What explains a ride: map, space-time diagram, clocks, places to go to.
 
-use egui::{Area, Color32, ColorImage, Id, Pos2, Rect, Sense, TextureHandle, TextureOptions, Ui, Vec2};
+use egui::{Area, Color32, ColorImage, Id, Pos2, Rangef, Rect, Sense, TextureHandle, TextureOptions, Ui, Vec2};
 use glam::DVec3;
 use input::Place;
 use instruments::{DiagramFrame, DiagramView, InstrumentWords, MiniatureView, PlanPicture, PlanTexture, Trail};
@@ -156,6 +156,21 @@ impl Guide {
             let at = Pos2::new(at_left, bottom - size.y);
             panel(ui, "diagram", at, size, |ui, area| self.diagram(ui, area, presentation.language));
         }
+    }
+
+    /// Part of a window's width, points, that is free of panels.
+    pub fn free_width(&self, ui: &Ui, presentation: &Presentation) -> Rangef {
+        let screen = ui.ctx().content_rect();
+        let at_left = presentation.miniature || presentation.planner || presentation.clocks;
+        let map = if at_left { MAP.x + MARGIN } else { 0.0 };
+        // The menu has the right side, and the diagram stands beside the map then.
+        let [beside_map, at_right] = match (presentation.diagram, presentation.menu) {
+            (false, _) => [0.0; 2],
+            (true, true) => [DIAGRAM.x + MARGIN, 0.0],
+            (true, false) => [0.0, DIAGRAM.x + MARGIN],
+        };
+        let (left, right) = (screen.left() + map + beside_map, screen.right() - at_right);
+        Rangef::new(left, right)
     }
 
     /// Shows what is asked for side by side on a sheet in a room.

@@ -220,12 +220,16 @@ impl<'a> Sheet<'a> {
         let here = pen.dot(self.beside(0.0, 0.0), 5.5, ACCENT);
         pen.keep_free(Rect::from_center_size(here.unwrap_or(self.middle), Vec2::splat(14.0)));
         let marked = trail.events().iter().map(|mark| (mark.name.as_str(), mark.event, EVENT));
-        let seen = trail.seen_now().map(|(name, event)| (name, event, LIGHT));
+        // Where a tour tells of events, clocks are dots without names beside them.
+        let names_clocks = trail.events().is_empty();
+        let seen = trail.seen_now().map(|(name, event)| (if names_clocks { name } else { "" }, event, LIGHT));
         let start = trail.start().map(|event| (words.start, event, EVENT));
-        let all: Vec<(&str, Event, Color32)> = seen.chain(marked).chain(start).collect();
+        let all: Vec<(&str, Event, Color32)> = marked.chain(seen).chain(start).collect();
         for (name, event, colour) in all {
             if let Some(at) = pen.dot(self.at(self.map.place(event)), 4.5, colour) {
-                pen.label(at + Vec2::new(9.0, 0.0), Align2::LEFT_CENTER, name, colour);
+                if !name.is_empty() {
+                    pen.label(at + Vec2::new(9.0, 0.0), Align2::LEFT_CENTER, name, colour);
+                }
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Caption of a tour, with its question and what goes on.
 
 use crate::controls::Controls;
-use egui::{Align2, Area, Color32, Frame, Id, RichText, Ui};
+use egui::{Align2, Area, Color32, Frame, Id, Order, Pos2, Rangef, RichText, Ui};
 use input::Action;
 use words::{Language, Phrase};
 
@@ -45,6 +45,8 @@ const WRONG: Color32 = Color32::from_rgb(0xff, 0xb3, 0x47);
 
 /// Widest caption, points, and its distance from the lower edge, above the readings.
 const WIDTH: f32 = 620.0;
+/// Narrowest room for a caption between panels, points.
+const NARROWEST: f32 = 320.0;
 const ABOVE: f32 = 108.0;
 /// Distance from the lower edge of a film, points.
 const IN_FILM: f32 = 24.0;
@@ -85,27 +87,32 @@ pub fn show(ui: &mut Ui, language: Language, caption: &Caption) -> Vec<Action> {
     actions
 }
 
-/// Shows a caption above the lower edge of a picture, by so many points.
-fn over(ui: &Ui, above: f32, contents: impl FnOnce(&mut Ui)) {
-    let width = (ui.ctx().content_rect().width() - 60.0).min(WIDTH);
-    Area::new(Id::unique("caption")).anchor(Align2::CENTER_BOTTOM, [0.0, -above]).show(ui.ctx(), |ui| {
+/// Shows a caption above the lower edge of a picture, by so many points, in the middle of what is `free` from left to
+/// right.
+fn over(ui: &Ui, above: f32, free: Rangef, contents: impl FnOnce(&mut Ui)) {
+    let screen = ui.ctx().content_rect();
+    // Between panels that leave no room it stands over them.
+    let free = if free.span() >= NARROWEST { free } else { Rangef::new(screen.left(), screen.right()) };
+    let at = Pos2::new(free.center(), screen.bottom() - above);
+    let area = Area::new(Id::unique("caption")).order(Order::Foreground);
+    area.fixed_pos(at).pivot(Align2::CENTER_BOTTOM).show(ui.ctx(), |ui| {
         Frame::window(ui.style()).show(ui, |ui| {
-            ui.set_max_width(width);
+            ui.set_max_width((free.span() - 40.0).min(WIDTH));
             contents(ui);
         });
     });
 }
 
-/// Shows a caption above the readings of a window.
-pub fn window(ui: &Ui, language: Language, caption: &Caption) -> Vec<Action> {
+/// Shows a caption above the readings of a window, where panels leave what is `free` from left to right.
+pub fn window(ui: &Ui, free: Rangef, language: Language, caption: &Caption) -> Vec<Action> {
     let mut actions = Vec::new();
-    over(ui, ABOVE, |ui| actions = show(ui, language, caption));
+    over(ui, ABOVE, free, |ui| actions = show(ui, language, caption));
     actions
 }
 
 /// Shows a caption in a film, where nobody presses buttons.
-pub fn film(ui: &Ui, language: Language, caption: &Caption) {
-    over(ui, IN_FILM, |ui| {
+pub fn film(ui: &Ui, free: Rangef, language: Language, caption: &Caption) {
+    over(ui, IN_FILM, free, |ui| {
         texts(ui, language, caption);
     });
 }

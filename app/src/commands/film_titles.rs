@@ -52,7 +52,7 @@ impl FilmTitles {
         self.sheet.draw(gpu, frame.record.at as f64 * 1e-9, (SheetPointer::default(), &[]), |ui| {
             guide.show(ui, presentation, &clocks);
             if let Some(caption) = caption {
-                interface::caption_film(ui, language, caption);
+                interface::caption_film(ui, guide.free_width(ui, presentation), language, caption);
             }
         });
         let encoder = gpu.device.create_command_encoder(&Default::default());

@@ -93,6 +93,7 @@ impl Open {
 
     /// Draws the present ride by another choice from now on.
     fn draw_by(&mut self, choice: Choice, is_told: bool) -> Result<(), Error> {
+        tell(&choice.because);
         self.set_map_scale(choice.dial);
         self.ride.draw_by(upload(&self.gpu, choice, &self.options, self.format)?);
         if is_told {

@@ -106,7 +106,8 @@ impl Open {
                         guide.show(ui, &shown, &clocks);
                     }
                     if let Some(caption) = caption.as_ref().filter(|_| is_flat) {
-                        wanted.extend(interface::caption_window(ui, shown.language, caption));
+                        let free = guide.free_width(ui, &shown);
+                        wanted.extend(interface::caption_window(ui, free, shown.language, caption));
                     }
                     if let Some(menu) = menu.as_ref().filter(|_| is_flat && shown.menu) {
                         wanted.extend(interface::menu_window(ui, page, &shown, menu));

@@ -7,6 +7,8 @@ mod bicycle_set_up;
 mod cache;
 mod calibration;
 mod check;
+#[cfg(target_os = "linux")]
+mod first_time;
 mod first_view;
 mod kiosk;
 mod measure;
@@ -31,5 +33,7 @@ mod turning_head;
 mod virtual_display;
 #[cfg(target_os = "linux")]
 mod walls;
+#[cfg(target_os = "linux")]
+mod wand_server;
 #[cfg(target_os = "linux")]
 mod window;

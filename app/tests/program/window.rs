@@ -85,3 +85,49 @@ fn a_ride_that_is_ended_while_its_windows_open_leaves_no_broken_recording() {
         }
     }
 }
+
+/// A rider who goes on in another scene, drawn in another way, loses nothing: the recording of the ride before is whole,
+/// and a replay shows it drawn as its rider wished.
+#[test]
+fn a_rider_changes_scene_and_method_in_mid_ride() {
+    let folder = tempfile::tempdir().unwrap();
+    let display = VirtualDisplay::open([640, 480]);
+    let keys = "[keys]\nF12 = '{\"scene\":\"dice\"}'\nF10 = '{\"set\":[\"renderer\",\"--renderer polygon --tolerance 4\"]}'\n\
+                F9 = '{\"scene\":\"nowhere.glb\"}'\nF8 = '{\"tour\":\"bells\"}'\n";
+    std::fs::write(folder.path().join("keys.toml"), keys).unwrap();
+    let arguments = ["ride", "--scene", "lattice", "--renderer", "image", "--size", "320x240", "--record", "r.mcap"];
+    let arguments = [&arguments[..], &["--set-up", "keys.toml"]].concat();
+    let told_to = std::fs::File::create(folder.path().join("told")).unwrap();
+    let mut program = display.rapidity(folder.path(), &arguments).stderr(told_to).spawn().unwrap();
+    let all_told = || std::fs::read_to_string(folder.path().join("told")).unwrap();
+    let named = |title: &str| display.tool(&["search", "--name", title]).filter(|id| !id.is_empty());
+    let window = wait_for("window", || named("Rapidity: lattice"));
+    wait_for("focus", || display.tool(&["windowfocus", "--sync", &window]));
+    let press_until = |key: &str, what: &str, done: &dyn Fn() -> bool| {
+        wait_for(what, || {
+            display.tool(&["key", key]);
+            std::thread::sleep(Duration::from_millis(1500));
+            done().then_some(())
+        });
+    };
+    press_until("F10", "method", &|| all_told().contains("drawn by the polygon renderer"));
+    press_until("F9", "refusal", &|| all_told().contains("nowhere.glb"));
+    assert!(named("Rapidity: lattice").is_some(), "a scene that is not there has ended the ride");
+    press_until("F12", "scene", &|| named("Rapidity: dice").is_some());
+    press_until("F8", "tour", &|| named("Rapidity: train").is_some());
+    let status = wait_for("end", || {
+        display.tool(&["key", "Escape"]);
+        program.try_wait().unwrap()
+    });
+    assert!(status.success(), "{}", all_told());
+    let verified = run(folder.path(), &["ride", "--replay", "r.mcap", "--verify"]);
+    assert!(verified.status.success(), "{}", told(&verified));
+
+    // The onlooker's window draws as the rider's did.
+    let told_to = std::fs::File::create(folder.path().join("told")).unwrap();
+    let shown = ["ride", "--replay", "r.mcap", "--renderer", "image", "--size", "320x240"];
+    let mut program = display.rapidity(folder.path(), &shown).stderr(told_to).spawn().unwrap();
+    wait_for("method of the rider", || all_told().contains("drawn by the polygon renderer").then_some(()));
+    program.kill().unwrap();
+    program.wait().unwrap();
+}
