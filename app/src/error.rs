@@ -77,6 +77,9 @@ pub enum Error {
         "--display needs windows, and there is no graphical session to open them in; draw stills with `rapidity render --display`"
     )]
     NoWindows,
+    /// A film of a tour that shows a recording.
+    #[error("a tour of a recording is shown in a window: leave --out out, or film the recording with render --replay")]
+    TourOfRecording,
     /// A kiosk without a graphical session for its window.
     #[error("--kiosk needs a window, and there is no graphical session to open it in: set DISPLAY or WAYLAND_DISPLAY")]
     KioskWithoutWindows,

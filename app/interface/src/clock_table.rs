@@ -23,11 +23,12 @@ pub fn show(ui: &mut Ui, language: Language, clocks: &[ClockRow]) {
                 ui.label(RichText::new(language.text(heading)).small());
             }
             ui.end_row();
+            let text = |seconds: f64| language.decimals(&reading(seconds));
             for ClockRow { name, readings_s: [seen, own, world] } in clocks {
                 ui.label(name);
-                ui.label(RichText::new(reading(*seen)).monospace().color(SEEN));
-                ui.label(RichText::new(reading(*own)).monospace());
-                ui.label(RichText::new(reading(*world)).monospace());
+                ui.label(RichText::new(text(*seen)).monospace().color(SEEN));
+                ui.label(RichText::new(text(*own)).monospace());
+                ui.label(RichText::new(text(*world)).monospace());
                 ui.end_row();
             }
         });

@@ -73,7 +73,7 @@ pub fn show(ui: &Ui, readings: &Readings) {
     let row = |area: Rect, y: f32, left: (&str, f32, Color32), right: (&str, f32, Color32)| {
         let laid = |(words, size, colour): (&str, f32, Color32), share: f32| {
             let size = (size * scale).max(LEGIBLE) * share;
-            painter.layout_no_wrap(words.to_owned(), FontId::proportional(size), colour)
+            painter.layout_no_wrap(language.decimals(words), FontId::proportional(size), colour)
         };
         let wanted = laid(left, 1.0).size().x + laid(right, 1.0).size().x + 8.0 * scale;
         let share = (area.width() / wanted).min(1.0);
@@ -119,7 +119,8 @@ pub fn show(ui: &Ui, readings: &Readings) {
     // would meet.
     let most = screen.width() - 24.0;
     let laid = |words: &str, most| painter.layout(words.to_owned(), FontId::proportional(13.0), INK, most);
-    let pace = laid(&pace(readings, |words| laid(words, f32::INFINITY).size().x <= most), most);
+    let fits = |words: &str| laid(words, f32::INFINITY).size().x <= most;
+    let pace = laid(&language.decimals(&pace(readings, fits)), most);
     let words = [(readings.recording, Phrase::Recording, ALERT), (readings.paused, Phrase::Paused, ACCENT)];
     let states = words.into_iter().filter(|(so, ..)| *so).map(|(_, phrase, colour)| (language.text(phrase), colour));
     let lines: Vec<_> = states
@@ -158,14 +159,15 @@ pub fn show(ui: &Ui, readings: &Readings) {
 pub fn speed_line(readings: &Readings, language: Language) -> String {
     let kilometres_per_hour = readings.beta * readings.speed_of_light * 3.6;
     let limit = language.fill(Phrase::Light, &[&speed(readings.speed_of_light * 3.6)]);
-    format!("{} · {limit} · β {}", speed(kilometres_per_hour), beta(readings.beta, readings.gamma))
+    language.decimals(&format!("{} · {limit} · β {}", speed(kilometres_per_hour), beta(readings.beta, readings.gamma)))
 }
 
 /// Line of the clocks and the frame rate.
 pub fn pace_line(readings: &Readings, language: Language) -> String {
     let rate = language.fill(Phrase::FramesPerSecond, &[&format!("{:.1}", readings.frame_rate)]);
     let [own, world] = [readings.own_clock_s, readings.world_clock_s].map(clock);
-    format!("{} {own} · {} {world} · {rate}", language.text(Phrase::YourClock), language.text(Phrase::WorldClock))
+    let [your, its] = [Phrase::YourClock, Phrase::WorldClock].map(|phrase| language.text(phrase));
+    language.decimals(&format!("{your} {own} · {its} {world} · {rate}"))
 }
 
 /// Text of the program's own pace; without the stages of a frame if one line has no room for them. `fits`: true if a

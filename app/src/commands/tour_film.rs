@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::output::say::tell;
 use crate::session::reel::{FRAMES_PER_SECOND, Reel, Told};
 use crate::session::start::{RideRoom, first_actions};
-use crate::session::waiting::ReadyTour;
+use crate::session::waiting::{self, ReadyTour};
 use command::RideOptions;
 use input::{Action, Nanos, SECOND, Sample};
 use interface::{Caption, CaptionQuestion};
@@ -25,9 +25,13 @@ const READING: f64 = 18.0;
 /// # Errors
 /// Any fault that keeps the tour from being ridden or drawn.
 pub fn film(gpu: &Gpu, options: &RideOptions, name: &str, path: &Path) -> Result<(), Error> {
+    let plan = waiting::plan(name)?;
+    if plan.recording.is_some() {
+        return Err(Error::TourOfRecording);
+    }
     let room = RideRoom::of(options)?;
     let ReadyTour { options, scene, presentation, mut simulation, mut log, mut tour } =
-        ReadyTour::of(options, &room, name)?;
+        ReadyTour::of(options, &room, name, plan)?;
     let rate = f64::from(FRAMES_PER_SECOND);
     let mut reel = Reel::new(rate, options.seconds.unwrap_or(LONGEST_S).min(LONGEST_S), presentation);
     let mut since: Option<(Caption, Nanos)> = None;

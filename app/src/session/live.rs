@@ -9,11 +9,11 @@ use crate::session::recorded_ride::RecordedRide;
 use crate::session::tour_ride::{TourMark, TourRide};
 use hardware::UnseenHead;
 use input::devices::{DeviceNote, DeviceState, Devices};
-use input::{Action, Clock, Nanos, RoadLoad, SECOND, Sample, SampleSource};
+use input::{Action, Clock, KeyMap, Nanos, RoadLoad, SECOND, Sample, SampleSource};
 use interface::Caption;
 use kiosk::Kiosk;
 use ride::{LogError, Replay, ReplayError, RideFrame, RideLog, Simulation};
-use words::Language;
+use words::{Language, Phrase};
 
 /// Ride in progress.
 pub struct Live {
@@ -56,9 +56,9 @@ impl Live {
         Self::new(rider, clock, seconds)
     }
 
-    /// Creates a replay of a recorded ride that starts now. The ride ends after `seconds`, if given.
-    pub fn recorded(replay: Replay, seconds: Option<f64>) -> Self {
-        Self::new(Rider::Recorded(Box::new(RecordedRide::new(replay))), Clock::start(), seconds)
+    /// Creates a replay of a recorded ride that starts now, for an onlooker with these keys. The ride ends after `seconds`, if given.
+    pub fn recorded(replay: Replay, keys: KeyMap, seconds: Option<f64>) -> Self {
+        Self::new(Rider::Recorded(Box::new(RecordedRide::new(replay, keys))), Clock::start(), seconds)
     }
 
     fn new(rider: Rider, clock: Clock, seconds: Option<f64>) -> Self {
@@ -157,6 +157,7 @@ impl Live {
         if self.end.is_some_and(|end| now >= end) {
             return Ok(None);
         }
+        let mut tour_ended = false;
         let frame = match &mut self.rider {
             Rider::Present { simulation, devices, log } => {
                 let mut samples = devices.drain();
@@ -164,6 +165,7 @@ impl Live {
                 if let Some(tour) = &mut self.tour {
                     samples.retain(|sample| !tour.replaces(sample.source));
                     samples.append(&mut tour.samples(now, simulation));
+                    tour_ended = tour.has_ended();
                 }
                 samples.sort_by_key(|sample| sample.at);
                 if let Some(kiosk) = &mut self.kiosk {
@@ -202,13 +204,21 @@ impl Live {
                 Some(frame)
             }
             Rider::Recorded(ride) => {
-                let step = ride.frame(now, &std::mem::take(&mut self.said))?;
+                let mut said = std::mem::take(&mut self.said);
+                if let Some(tour) = &mut self.tour {
+                    said.append(&mut tour.samples(now, ride.replay.simulation()));
+                    tour_ended = tour.has_ended();
+                }
+                let step = ride.frame(now, &said)?;
                 let difference = step.difference.map(|difference| interface::replay_fault(&difference, self.language));
                 self.told.extend(difference.map(|sentence| (Nanos::MAX, sentence)));
                 step.frame
             }
         };
         self.tell_notes(now);
+        if tour_ended {
+            self.tell(self.language.text(Phrase::TourOver));
+        }
         if let Some(frame) = &frame {
             for notice in &frame.notices {
                 self.tell(interface::notice(*notice, self.language));

@@ -2,7 +2,7 @@
 
 use crate::output::say::tell;
 use crate::session::gaps::ShownTimes;
-use input::{Action, Desk, DeskConfig, Nanos, Sample};
+use input::{Action, Desk, DeskConfig, KeyMap, Nanos, Sample};
 use presentation::Presentation;
 use ride::{Replay, ReplayError, Replayed, RideFrame};
 
@@ -14,6 +14,12 @@ pub struct RecordedRide {
     shown: Option<RideFrame>,
     differed: bool,
     times: ShownTimes,
+    /// Keys of the onlooker that do other work than their own.
+    keys: KeyMap,
+    /// True while the onlooker or a tour holds the ride; the time for which it was held, and the time of the last call.
+    holds: bool,
+    held: Nanos,
+    last: Nanos,
 }
 
 /// Frame of a recorded ride.
@@ -25,9 +31,10 @@ pub struct RecordedStep {
 }
 
 impl RecordedRide {
-    /// Ride before its first frame.
-    pub fn new(replay: Replay) -> Self {
-        Self { replay, next: None, shown: None, differed: false, times: ShownTimes::default() }
+    /// Ride before its first frame. `keys`: keys of the onlooker that do other work than their own.
+    pub fn new(replay: Replay, keys: KeyMap) -> Self {
+        let times = ShownTimes::default();
+        Self { replay, next: None, shown: None, differed: false, times, keys, holds: false, held: 0, last: 0 }
     }
 
     /// Frame at the time `now`; `said`: what an onlooker has asked for since the last.
@@ -36,6 +43,17 @@ impl RecordedRide {
     /// [`ReplayError`] of a recording that is damaged before its first frame.
     pub fn frame(&mut self, now: Nanos, said: &[Sample]) -> Result<RecordedStep, ReplayError> {
         let (mut repeated, mut differs) = (Vec::new(), None);
+        let asked = self.onlooker(said);
+        let passed = now.saturating_sub(std::mem::replace(&mut self.last, now));
+        self.held += if self.holds { passed } else { 0 };
+        for action in &asked {
+            match action {
+                Action::TogglePause => self.holds = !self.holds,
+                Action::Hold(hold) => self.holds = *hold,
+                _ => {}
+            }
+        }
+        let now = now.saturating_sub(self.held);
         // The frames that were ridden since the last call are simulated, and the last of them is shown.
         let ended = loop {
             let (frame, due_at) = match self.next.take() {
@@ -72,31 +90,38 @@ impl RecordedRide {
         // onlooker asks for now follow.
         let mut frame = if ended && self.next.is_none() { None } else { self.shown.clone() };
         if let Some(frame) = &mut frame {
-            repeated.extend(onlooker(said));
+            repeated.extend(asked);
             frame.controls.actions = repeated;
+            frame.paused |= self.holds;
         }
         Ok(RecordedStep { frame, difference: differs })
     }
-}
 
-/// Actions of a recorded ride's onlooker that concern the window alone.
-fn onlooker(said: &[Sample]) -> Vec<Action> {
-    let mut desk = Desk::new(DeskConfig::default()).expect("the default settings are sound");
-    said.iter().for_each(|sample| desk.feed(sample));
-    let actions = desk.controls(said.last().map_or(0, |sample| sample.at)).actions;
-    let of_window = |action: &Action| {
-        matches!(
-            action,
-            Action::ToggleHelp
-                | Action::Photo
-                | Action::PhotoSphere
-                | Action::ToggleFullScreen
-                | Action::ToggleCalibration
-                | Action::Leave
-                | Action::Toggle(_)
-                | Action::Set(..)
-                | Action::Next(_)
-        )
-    };
-    actions.into_iter().filter(|action| of_window(action) || Presentation::repeats(action)).collect()
+    /// Actions of an onlooker that concern the window alone, or hold the ride.
+    fn onlooker(&self, said: &[Sample]) -> Vec<Action> {
+        let keys = DeskConfig { keys: self.keys.clone(), ..DeskConfig::default() };
+        let mut desk = Desk::new(keys).expect("keys are checked where they are read");
+        said.iter().for_each(|sample| desk.feed(sample));
+        let actions = desk.controls(said.last().map_or(0, |sample| sample.at)).actions;
+        let of_window = |action: &Action| {
+            matches!(
+                action,
+                Action::ToggleHelp
+                    | Action::Photo
+                    | Action::PhotoSphere
+                    | Action::ToggleFullScreen
+                    | Action::ToggleCalibration
+                    | Action::Leave
+                    | Action::TogglePause
+                    | Action::Hold(_)
+                    | Action::GoOn
+                    | Action::Choose
+                    | Action::Answer(_)
+                    | Action::Toggle(_)
+                    | Action::Set(..)
+                    | Action::Next(_)
+            )
+        };
+        actions.into_iter().filter(|action| of_window(action) || Presentation::repeats(action)).collect()
+    }
 }

@@ -11,6 +11,8 @@ use words::Language;
 pub struct TourRide {
     player: TourPlayer,
     marks: Vec<TourMark>,
+    /// True once the visitor was told that it is over.
+    ended: bool,
 }
 
 /// Event of a tour, for the diagram.
@@ -25,7 +27,7 @@ pub struct TourMark {
 impl TourRide {
     /// Tour from its beginning.
     pub fn new(player: TourPlayer) -> Self {
-        Self { player, marks: Vec::new() }
+        Self { player, marks: Vec::new(), ended: false }
     }
 
     /// Samples of the tour up to the time `now`, in the order of their times.
@@ -42,6 +44,11 @@ impl TourRide {
         let actions = step.changes.iter().flat_map(TourChange::actions);
         samples.extend(actions.map(|action| Sample::action(now, &action)));
         samples
+    }
+
+    /// True once, after the last station.
+    pub fn has_ended(&mut self) -> bool {
+        self.player.is_over() && !std::mem::replace(&mut self.ended, true)
     }
 
     /// Events that have been named since the last call.

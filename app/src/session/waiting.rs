@@ -5,13 +5,13 @@ use crate::session::live::Live;
 use crate::session::scenes;
 use crate::session::start::{PRESENTATION, RideRoom, kiosk, prepared, prepared_for_tour, present, recorded};
 use crate::session::tour_ride::TourRide;
-use command::{RideOptions, SceneChoice};
+use command::{RideOptions, SceneChoice, WorldOptions};
 use presentation::Presentation;
 use ride::{RideLog, Simulation};
 use scene::Scene;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use tours::TourPlayer;
+use tours::{TourPlan, TourPlayer};
 
 /// Function that begins a ride.
 pub type Begin = Box<dyn FnOnce() -> Result<Live, Error> + Send>;
@@ -38,15 +38,21 @@ impl WaitingRide {
     /// A scene, a recording, a tour or a setting that cannot be used.
     pub fn of(options: &RideOptions, room: RideRoom) -> Result<Self, Error> {
         match (&options.replay, &options.tour) {
-            (Some(path), _) => of_recording(options, room, path),
+            (Some(path), _) => of_recording(options, room, path, None),
             (None, Some(name)) => of_tour(options, room, name),
             (None, None) => of_rider(options, room),
         }
     }
 }
 
-/// Recorded ride, shown as its rider saw it, unless the command line asks for another picture.
-fn of_recording(options: &RideOptions, room: RideRoom, path: &Path) -> Result<WaitingRide, Error> {
+/// Recorded ride, shown as its rider saw it, unless the command line asks for another picture; with the captions of a
+/// tour, if one tells of it.
+fn of_recording(
+    options: &RideOptions,
+    room: RideRoom,
+    path: &Path,
+    plan: Option<TourPlan>,
+) -> Result<WaitingRide, Error> {
     let seconds = options.seconds;
     let (scene, replay) = recorded(path, &options.world)?;
     let mut options = options.clone();
@@ -57,7 +63,16 @@ fn of_recording(options: &RideOptions, room: RideRoom, path: &Path) -> Result<Wa
         Some(json) if !options.picture.is_given => presentation.with_json(json).in_language(presentation.language),
         _ => presentation,
     };
-    let begin = Box::new(move || Ok(Live::recorded(replay, seconds)));
+    let keys = options.keys.clone();
+    let desk = &replay.simulation().setup().desk;
+    let player = plan.map(|plan| TourPlayer::new(Arc::new(plan), &scene.circuit, desk)).transpose()?;
+    let begin = Box::new(move || {
+        let live = Live::recorded(replay, keys, seconds);
+        Ok(match player {
+            Some(player) => live.on_tour(TourRide::new(player)),
+            None => live,
+        })
+    });
     Ok(WaitingRide { options, scene, room, presentation, begin })
 }
 
@@ -79,15 +94,46 @@ fn of_rider(options: &RideOptions, room: RideRoom) -> Result<WaitingRide, Error>
     Ok(WaitingRide { options, scene, room, presentation, begin })
 }
 
-/// Ride on a tour, by its name or file.
+/// Ride on a tour, by its name or file. A tour of a recording shows that.
 fn of_tour(options: &RideOptions, room: RideRoom, name: &str) -> Result<WaitingRide, Error> {
-    let ReadyTour { options, scene, presentation, simulation, mut log, tour } = ReadyTour::of(options, &room, name)?;
+    let plan = plan(name)?;
+    if let Some(recording) = &plan.recording {
+        let (path, scene) = (beside(name, recording), Some(scene_of(&plan, name)));
+        let options = RideOptions { world: WorldOptions { scene, ..options.world.clone() }, ..options.clone() };
+        return of_recording(&options, room, &path, Some(plan));
+    }
+    let ReadyTour { options, scene, presentation, simulation, mut log, tour } =
+        ReadyTour::of(options, &room, name, plan)?;
     if let Some(path) = &options.record {
         log.record(path)?;
     }
     let (begun, set_up) = (options.clone(), room.set_up.clone());
     let begin = move || Ok(present(&begun, &set_up, simulation, log, None)?.on_tour(tour));
     Ok(WaitingRide { options, scene, room, presentation, begin: Box::new(begin) })
+}
+
+/// Plan of a tour, by its name or file.
+///
+/// # Errors
+/// A name that no tour has, or a file that cannot be used.
+pub fn plan(name: &str) -> Result<TourPlan, Error> {
+    Ok(if name.ends_with(".toml") { tours::read(Path::new(name))? } else { tours::built_in(name)? })
+}
+
+/// Scene of a plan; a file's is looked for beside the tour's own file.
+fn scene_of(plan: &TourPlan, name: &str) -> SceneChoice {
+    match SceneChoice::from_name(&plan.scene) {
+        SceneChoice::File(path) => SceneChoice::File(beside(name, path)),
+        choice => choice,
+    }
+}
+
+/// Path that is relative to the file of a tour.
+fn beside(name: &str, path: impl AsRef<Path>) -> PathBuf {
+    match Path::new(name).parent() {
+        Some(folder) if name.ends_with(".toml") => folder.join(path),
+        _ => path.as_ref().to_owned(),
+    }
 }
 
 /// Tour that is ready to be ridden.
@@ -111,14 +157,9 @@ impl ReadyTour {
     ///
     /// # Errors
     /// A tour, a scene or a setting that cannot be used.
-    pub fn of(options: &RideOptions, room: &RideRoom, name: &str) -> Result<Self, Error> {
-        let file = Path::new(name);
-        let plan = if name.ends_with(".toml") { tours::read(file)? } else { tours::built_in(name)? };
+    pub fn of(options: &RideOptions, room: &RideRoom, name: &str, plan: TourPlan) -> Result<Self, Error> {
         let mut options = options.clone();
-        options.world.scene = Some(match (SceneChoice::from_name(&plan.scene), file.parent()) {
-            (SceneChoice::File(path), Some(folder)) if name.ends_with(".toml") => SceneChoice::File(folder.join(path)),
-            (choice, _) => choice,
-        });
+        options.world.scene = Some(scene_of(&plan, name));
         options.world.speed_of_light = plan.speed_of_light_m_s;
         let world = scenes::load(&options.world)?;
         options.world.speed_of_light = Some(world.speed_of_light_m_s);

@@ -153,6 +153,8 @@ pub struct TourPlan {
     pub start: Option<[DVec3; 2]>,
     /// Route of a bicycle.
     pub route: TourRoute,
+    /// Recording that is shown instead of a ride, relative to the tour's own file.
+    pub recording: Option<String>,
     /// Stations in order, at least one.
     pub stations: Vec<TourStation>,
 }

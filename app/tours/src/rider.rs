@@ -23,7 +23,7 @@ impl Rider {
     /// Rider of a plan in a scene with this circuit.
     pub(crate) fn new(plan: &TourPlan, circuit: &[DVec3], desk: &DeskConfig) -> Result<Self, PlayError> {
         let title = || plan.title.in_language("en").to_owned();
-        let rides = plan.vehicle == VehicleKind::Bicycle;
+        let rides = plan.vehicle == VehicleKind::Bicycle && plan.recording.is_none();
         let moves = plan
             .stations
             .iter()

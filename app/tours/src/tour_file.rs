@@ -48,6 +48,7 @@ struct PlanTable {
     gain: Option<Spanned<f64>>,
     start: Option<Spanned<StartTable>>,
     route: Option<Spanned<RouteValue>>,
+    recording: Option<Spanned<String>>,
     #[serde(default)]
     station: Vec<Spanned<StationTable>>,
 }
@@ -157,13 +158,17 @@ impl Source<'_> {
                 other => return Err(self.named(named, "vehicle", other, "bicycle, drive or fly")),
             },
         };
-        let rides = vehicle == VehicleKind::Bicycle;
+        let rides = vehicle == VehicleKind::Bicycle && table.recording.is_none();
         if table.station.is_empty() {
             return Err(self.fault(self.text.len(), "it has no station: add a table [[station]]".to_owned()));
         }
         if let Some(beyond) = table.station.get(MOST_STATIONS) {
             let fault = format!("it has more than {MOST_STATIONS} stations: cut it into several tours");
             return Err(self.fault(beyond.span().start, fault));
+        }
+        let thrusts = |station: &Spanned<StationTable>| Some(station.get_ref().thrust.as_ref()?.span().start);
+        if let (Some(_), Some(at)) = (&table.recording, table.station.iter().find_map(thrusts)) {
+            return Err(self.fault(at, "the recording rides by itself: take thrust away".to_owned()));
         }
         let mut stations: Vec<TourStation> = Vec::new();
         for station in table.station {
@@ -182,6 +187,7 @@ impl Source<'_> {
             gain_m_s2: table.gain.map_or(Ok(USUAL_GAIN_M_S2), |value| self.number("gain", &value, GAIN))?,
             start: table.start.map(|start| self.start(&start)).transpose()?,
             route: table.route.map_or(Ok(TourRoute::Circuit), |route| self.route(route))?,
+            recording: table.recording.map(|text| self.plain("recording", text)).transpose()?,
             stations,
         })
     }
@@ -236,7 +242,7 @@ impl Source<'_> {
                 return Err(self.fault(thrust.span().start, fault.to_owned()));
             }
             (Some(speed), None) if !rides => {
-                let fault = "speed is for a bicycle that rides along its route: take it away, or set thrust";
+                let fault = "speed is for a bicycle that rides along its route: take it away";
                 return Err(self.fault(speed.span().start, fault.to_owned()));
             }
             (Some(speed), None) if speed.get_ref().trim().ends_with('c') => {

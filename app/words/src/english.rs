@@ -142,7 +142,6 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::Road => "road travelled",
         Phrase::Odometer => "your odometer",
         Phrase::GammaRapidity => "γ · rapidity",
-        Phrase::Felt => "felt",
         Phrase::Recording => "recording",
         Phrase::Paused => "held: P goes on",
         Phrase::HelpAndMenu => "F1 help · F3 menu",

@@ -148,7 +148,6 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::Road => "Straße gefahren",
         Phrase::Odometer => "dein Kilometerzähler",
         Phrase::GammaRapidity => "γ · Rapidität",
-        Phrase::Felt => "gespürt",
         Phrase::Recording => "Aufnahme läuft",
         Phrase::Paused => "angehalten: weiter mit P",
         Phrase::HelpAndMenu => "F1 Hilfe · F3 Menü",

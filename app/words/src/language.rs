@@ -64,6 +64,18 @@ impl Language {
         }
     }
 
+    /// Text with its decimals written as in this language.
+    pub fn decimals(self, text: &str) -> String {
+        if self == Self::English {
+            return text.to_owned();
+        }
+        let of_digits: Vec<char> = text.chars().collect();
+        let is_digit = |place: usize| of_digits.get(place).is_some_and(char::is_ascii_digit);
+        let between = |place: usize| place > 0 && is_digit(place - 1) && is_digit(place + 1);
+        let written = |(place, letter): (usize, &char)| if *letter == '.' && between(place) { ',' } else { *letter };
+        of_digits.iter().enumerate().map(written).collect()
+    }
+
     /// Text of a phrase, with its numbers in braces as they are.
     pub fn text(self, phrase: Phrase) -> &'static str {
         match self {
@@ -111,6 +123,16 @@ mod tests {
 
     fn values(text: &str) -> BTreeSet<&str> {
         text.split('{').skip(1).filter_map(|rest| rest.split_once('}')).map(|(number, _)| number).collect()
+    }
+
+    #[test]
+    fn decimals_are_written_as_in_the_language() {
+        for (english, german) in
+            [("β 0.640", "β 0,640"), ("00:59.9", "00:59,9"), ("1. Halt.", "1. Halt."), (".5", ".5")]
+        {
+            assert_eq!(Language::German.decimals(english), german);
+            assert_eq!(Language::English.decimals(english), english);
+        }
     }
 
     #[test]

@@ -266,8 +266,6 @@ phrases! {
     Odometer,
     /// Label of γ and rapidity.
     GammaRapidity,
-    /// Label of the felt acceleration.
-    Felt,
     /// State: a recording is written.
     Recording,
     /// State: the ride is held.

@@ -87,6 +87,16 @@ fn each_fault_is_named_with_its_line_and_what_to_do() {
         (format!("{HEAD}{station}speed = \"30\"\n"), "line 5: speed is \"30\": expected a number and m/s"),
         (format!("{HEAD}{station}thrust = [0, 0, 1]\n"), "line 5: thrust is for the vehicles drive and fly"),
         (format!("{drive}speed = \"1 m/s\"\n"), "line 6: speed is for a bicycle"),
+        (
+            format!("{HEAD}recording = \"r.mcap\"\n{station}thrust = [0, 0, 1]\n"),
+            "line 6: the recording rides by itself",
+        ),
+        (format!("{HEAD}recording = \"r.mcap\"\n{station}speed = \"1 m/s\"\n"), "line 6: speed is for a bicycle"),
+        (format!("{HEAD}{station}speed = \"0.8 c\"\n"), "line 5: speed is road per second"),
+        (
+            format!("{HEAD}{station}[[station.event]]\nname.en = \"a\"\nposition = [0, 0, inf]\n"),
+            "line 5: position holds",
+        ),
         (format!("{drive}thrust = [0, 0, 2]\n"), "line 6: thrust is [0, 0, 2]: expected −1, 0 or 1"),
         (format!("{drive}until = 3\n"), "until is a length along a bicycle's route"),
         (format!("{HEAD}{station}caption.english = \"x\"\n"), "line 5: caption has the language \"english\""),
