@@ -15,8 +15,8 @@ use crate::vehicle_hull::place_of;
 const STEP_S: f64 = 1.0 / 240.0;
 /// Least distance of a vehicle from a wall, metres: the reach of its body, less an elbow.
 const BODY_M: f64 = 0.384;
-/// Greatest height of a fast vehicle above the ground, metres.
-const LIFTED_M: f64 = 0.26;
+/// Greatest height of a fast vehicle above the ground, metres, and of one that stops at its end.
+const LIFTED_M: f64 = 0.46;
 /// Half the width of a yard, metres.
 const HALF_M: f32 = 2.5;
 /// Height of a yard's middle above its edge, metres: with it, the height of a vehicle above the edge varies.
