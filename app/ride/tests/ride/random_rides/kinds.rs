@@ -127,7 +127,7 @@ fn a_fast_vehicle_stops_at_the_grounds_end_and_not_above_it() {
 
 #[test]
 fn steps_that_would_outlast_their_time_are_left_to_rk4() {
-    // A handlebar turns a bicycle, and the ground a car that points into it, as fast at a high celerity as at a low one.
+    // A handlebar turns a bicycle, and the ground a car that points into it, as fast at any celerity.
     let controls = Controls { steer_rad: 0.5, ..Controls::default() };
     let (level, down) = (DVec3::NEG_Z, DVec3::new(0.0, -0.2, -1.0).normalize());
     for (integrator, kind, motion, fast) in [
