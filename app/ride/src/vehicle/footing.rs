@@ -17,6 +17,8 @@ const SINK: f64 = 0.3;
 const SUNK_M: f64 = 0.3;
 /// Depth in the ground to which a vehicle that is deeper is lifted, metres: just enough for the ground to be found.
 const SUNK_HELD_M: f64 = scene::collision::STEP - 1e-3;
+/// Height besides, up to which a vehicle that stops at the end of the ground is left where it is, metres.
+const LEFT_M: f64 = 0.2;
 /// Number of halvings of a stride in search of the end of the ground.
 const HALVINGS: usize = 6;
 
@@ -40,7 +42,8 @@ impl Footing {
         let Some(ground) = surroundings.height_below(to + SUNK_M * DVec3::Y) else {
             let last = last_on_ground(surroundings, before, to);
             let highest = surroundings.height_below(last).map_or(last.y, |ground| highest(ground, before, last));
-            return Self::Edge(DVec3 { y: last.y.min(highest), ..last });
+            let is_high = last.y > highest + LEFT_M;
+            return Self::Edge(DVec3 { y: if is_high { highest } else { last.y }, ..last });
         };
         let rise_m = to.y - ground.height;
         let highest = highest(ground, before, to);

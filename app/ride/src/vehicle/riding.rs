@@ -63,8 +63,8 @@ impl Vehicle {
         }
     }
 
-    /// Ends a stride clear of walls and on the ground, and returns the nearest wall there. `None` if no such end is found
-    /// to which the stride leads through no wall.
+    /// Ends a stride clear of walls and on the ground, and returns the nearest wall there. `None` if no such end is
+    /// found to which the stride leads through no wall.
     fn ended(&mut self, way: &StrideWay, surroundings: &dyn Surroundings) -> Option<Option<Wall>> {
         let wall = self.cleared(way, surroundings)?;
         if self.settings.keeps_to_ground && self.keep_footing(way.before, surroundings) {

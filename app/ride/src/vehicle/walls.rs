@@ -109,9 +109,9 @@ pub(super) fn is_too_near(before: Option<Wall>, wall: Option<Wall>) -> bool {
 }
 
 /// True if the straight way of a stride, with its corrections, from a place where `wall` is the nearest is known to
-/// lead through none: it is shorter than the way to the nearest wall, or stays on the near side of one that the shortest
-/// stride could pass. A correction away from a wall that counts only at the height where the stride ends may have led
-/// through another. A place in a wall is on either side of it.
+/// lead through none: it is shorter than the way to the nearest wall, or stays on the near side of one that the
+/// shortest stride could pass. A correction away from a wall that counts only at the height where the stride ends may
+/// have led through another. A place in a wall is on either side of it.
 pub(super) fn leads_through_none(wall: Option<Wall>, way: DVec3, free_m: f64) -> bool {
     let way_m = libm::hypot(way.x, way.z);
     let Some(wall) = wall else { return way_m < free_m.max(FREE_M) + BODY_RADIUS_M };

@@ -15,6 +15,8 @@ use crate::vehicle_hull::place_of;
 const STEP_S: f64 = 1.0 / 240.0;
 /// Least distance of a vehicle from a wall, metres: the reach of its body, less an elbow.
 const BODY_M: f64 = 0.384;
+/// Greatest height of a fast vehicle above the ground, metres, and of one that stops at its end.
+const LIFTED_M: f64 = 0.46;
 /// Half the width of a yard, metres.
 const HALF_M: f32 = 2.5;
 /// Height of a yard's middle above its edge, metres: with it, the height of a vehicle above the edge varies.
@@ -101,19 +103,46 @@ fn a_motion_into_the_ground_ends_clear_of_walls() {
 }
 
 #[test]
+fn a_fast_vehicle_stops_at_the_grounds_end_and_not_above_it() {
+    let [a, b, c, d] =
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, z)| Vec3::new(10.0 * x, 0.0, 10.0 * z));
+    let plane = place_of(&[[a, b, c], [a, c, d]]);
+    for kind in [VehicleKind::Bicycle, VehicleKind::Drive] {
+        for slope in [0.02, 0.1, 0.3] {
+            // Fourteen metres a step: over the end at once.
+            let motion = DVec3::new(0.1, slope, -1.0).normalize();
+            let orientation = DQuat::from_rotation_arc(DVec3::NEG_Z, motion);
+            let state = WorldlineState::new(Event::default(), Celerity::new(motion * 1.1e-5).unwrap(), orientation);
+            let light_speed = LightSpeed::new(3e8).unwrap();
+            let mut vehicle = Vehicle::new(light_speed, kind, state, VehicleSettings::default()).unwrap();
+            for _ in 0..60 {
+                vehicle.step(STEP_S, &Controls::default(), &plane);
+                let place = vehicle.state().position;
+                assert!(place.x.abs().max(place.z.abs()) <= 10.0, "{kind:?} has left the ground at {place}");
+                assert!(place.y < LIFTED_M, "{kind:?} stops in the air at {place}");
+            }
+        }
+    }
+}
+
+#[test]
 fn steps_that_would_outlast_their_time_are_left_to_rk4() {
-    // A handlebar turns a bicycle at the same rate at any celerity, and its celerity with it.
+    // A handlebar turns a bicycle, and the ground a car that points into it, as fast at any celerity.
     let controls = Controls { steer_rad: 0.5, ..Controls::default() };
-    for integrator in [IntegratorKind::Exact, IntegratorKind::DormandPrince] {
-        for (celerity, outlasts) in [(1e2, false), (1e6, true)] {
-            let start = Celerity::new(DVec3::NEG_Z * celerity).unwrap();
+    let (level, down) = (DVec3::NEG_Z, DVec3::new(0.0, -0.2, -1.0).normalize());
+    for (integrator, kind, motion, fast) in [
+        (IntegratorKind::Exact, VehicleKind::Bicycle, level, 1e6),
+        (IntegratorKind::DormandPrince, VehicleKind::Drive, down, 1e5),
+    ] {
+        for (celerity, outlasts) in [(1.0, false), (fast, true)] {
+            let start = Celerity::new(motion * celerity).unwrap();
             let state = WorldlineState::new(Event::default(), start, DQuat::IDENTITY);
             let settings = VehicleSettings { integrator, ..VehicleSettings::default() };
-            let mut bicycle = Vehicle::new(LightSpeed::OLD_TOWN, VehicleKind::Bicycle, state, settings).unwrap();
-            bicycle.step(STEP_S, &controls, &OpenPlane);
-            let is_left = bicycle.notices().contains(&Notice::TakenByRk4);
+            let mut vehicle = Vehicle::new(LightSpeed::OLD_TOWN, kind, state, settings).unwrap();
+            vehicle.step(STEP_S, &controls, &OpenPlane);
+            let is_left = vehicle.notices().contains(&Notice::TakenByRk4);
             assert_eq!(is_left, outlasts, "{integrator:?} at the celerity {celerity}");
-            assert!(bicycle.state().position.is_finite() && bicycle.state().celerity.magnitude() > 0.5 * celerity);
+            assert!(vehicle.state().position.is_finite() && vehicle.state().celerity.magnitude() > 0.5 * celerity);
         }
     }
 }

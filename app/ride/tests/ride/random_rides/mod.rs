@@ -1,6 +1,6 @@
 //! Law: whatever its devices send, a ride's numbers stay finite; a bicycle and a car stay in the streets, on the
-//! ground and clear of walls; a spaceship passes through no surface; and when all is let go, a fresh key or a restart
-//! moves the vehicle again. A wrong program throws a rider over a roof, or leaves one caught in a corner.
+//! ground and clear of walls; a spaceship passes through no surface; and when all is let go, fresh keys move the
+//! vehicle again without a restart. A wrong program throws a rider over a roof, or leaves one caught in a corner.
 //!
 //! The example `random_rides` rides as many as it is told to.
 
