@@ -108,6 +108,9 @@ pub enum Action {
     ScaleTime(f64),
     /// Speed of light in the world, m/s; finite, positive.
     SpeedOfLight(f64),
+    /// Thrust of a rider who is nobody, as on a tour, from now on: right, up, backward, each from −1 to 1. That of
+    /// devices is added to it.
+    Thrust([f64; 3]),
     /// Change of the vehicle.
     Vehicle(VehicleKind),
     /// Look along the nose again.
@@ -209,6 +212,7 @@ impl Action {
         match self {
             Self::TimeScale(scale) => scale.is_finite() && *scale >= 0.0,
             Self::ScaleTime(factor) | Self::SpeedOfLight(factor) => factor.is_finite() && *factor > 0.0,
+            Self::Thrust(axes) => axes.iter().all(|axis| (-1.0..=1.0).contains(axis)),
             Self::Expose(stops) => stops.is_finite(),
             Self::Orbit { turn_rad, closer } => {
                 turn_rad.iter().all(|turn| turn.is_finite()) && closer.is_finite() && *closer > 0.0

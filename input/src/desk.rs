@@ -64,6 +64,8 @@ pub struct Desk {
     /// True if a handlebar, a stick or a SpaceMouse steers, false if keys do.
     by_hand: bool,
     head: Option<TrackedHead>,
+    /// Thrust of a rider who is nobody: right, up, backward.
+    pushed: [f64; 3],
     wand: Option<TrackedWand>,
     presses: WandPresses,
     /// Use of the tracked head, if there is one.
@@ -96,6 +98,7 @@ impl Desk {
             vehicle: VehicleKind::default(),
             by_hand: false,
             head: config.head.clone().map(TrackedHead::new).transpose()?,
+            pushed: [0.0; 3],
             wand: config.head.as_ref().map_or(Ok(None), TrackedWand::new)?,
             keyboard: KeyboardDecoder::new(config.rider.clone(), &config.keys, config.all_act),
             gamepad: GamepadDecoder::new(config.free_look, config.all_act, config.gamepad.clone()),
@@ -327,8 +330,17 @@ impl Desk {
             self.spacenavd.deflection(),
             driven.map_or([0.0; 6], work::deflection),
         ];
-        let deflection = |axis: usize| deflections.iter().map(|device| device[axis]).sum::<f64>().clamp(-1.0, 1.0);
         let actions = self.actions.take();
+        for action in &actions {
+            if let Action::Thrust(axes) = action {
+                self.pushed = *axes;
+            }
+        }
+        let pushed = |axis: usize| self.pushed.get(axis).copied().unwrap_or(0.0);
+        let deflection = |axis: usize| {
+            let sum = deflections.iter().map(|device| device[axis]).sum::<f64>();
+            (sum + pushed(axis)).clamp(-1.0, 1.0)
+        };
         Controls {
             wheel_speed,
             cadence_hz: self.bicycle.cadence_hz(at).or_else(|| self.trainer.cadence_hz(at)),

@@ -88,7 +88,8 @@ pub struct Trail {
 
 impl Trail {
     /// Adds a frame of the ride. A restart, seen by the own clock that goes back, begins a new trail, and so does
-    /// another speed of light, which makes it another world; the clocks that are watched stay. A jump begins a new line.
+    /// another speed of light, which makes it another world; the clocks that are watched stay. A jump begins a new
+    /// line.
     pub fn note(&mut self, frame: &RideFrame) {
         self.note_moment(PresentMoment::of(frame));
     }

@@ -56,7 +56,8 @@ impl Live {
         Self::new(rider, clock, seconds)
     }
 
-    /// Creates a replay of a recorded ride that starts now, for an onlooker with these keys. The ride ends after `seconds`, if given.
+    /// Creates a replay of a recorded ride that starts now, for an onlooker with these keys. The ride ends after
+    /// `seconds`, if given.
     pub fn recorded(replay: Replay, keys: KeyMap, seconds: Option<f64>) -> Self {
         Self::new(Rider::Recorded(Box::new(RecordedRide::new(replay, keys))), Clock::start(), seconds)
     }

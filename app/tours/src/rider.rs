@@ -1,22 +1,17 @@
-//! Rider of a tour: samples of a bicycle's sensors along the route, or of keys that thrust.
+//! Rider of a tour: samples of a bicycle's sensors along the route, or thrust.
 
 use crate::plan::{StationRide, TourPlan, TourRoute};
 use crate::tour_error::PlayError;
 use glam::DVec3;
-use input::{DeskConfig, KeyboardKey, Nanos, Sample, SampleSource, VehicleKind};
+use input::{Action, DeskConfig, Nanos, Sample, SampleSource, VehicleKind};
 use ride::{Tour, Vehicle};
-
-/// Keys that thrust along an axis, negative and positive: right, up, backward.
-const THRUST_KEYS: [[KeyboardKey; 2]; 3] =
-    [[KeyboardKey::A, KeyboardKey::D], [KeyboardKey::F, KeyboardKey::R], [KeyboardKey::W, KeyboardKey::S]];
 
 /// Rider that nobody is.
 pub(crate) struct Rider {
-    desk: DeskConfig,
     gain_m_s2: f64,
     cyclist: Option<Box<Tour>>,
-    /// Keys that are down.
-    down: Vec<KeyboardKey>,
+    /// Thrust at present: right, up, backward.
+    pushed: [i8; 3],
 }
 
 impl Rider {
@@ -38,7 +33,7 @@ impl Rider {
             let tour = Tour::new(&route, &desk.bicycle).ok_or_else(|| PlayError::NoRoute { title: title() })?;
             cyclist = Some(Box::new(tour));
         }
-        Ok(Self { desk: desk.clone(), gain_m_s2: plan.gain_m_s2, cyclist, down: Vec::new() })
+        Ok(Self { gain_m_s2: plan.gain_m_s2, cyclist, pushed: [0; 3] })
     }
 
     /// Length along the route, metres; NaN before the first samples and without a route.
@@ -62,32 +57,22 @@ impl Rider {
                 samples.iter_mut().for_each(|sample| sample.at += now - running);
                 samples
             }
-            (StationRide::Thrust(axes), _) => self.press(axes, at),
-            _ => self.press([0; 3], at),
+            (StationRide::Thrust(axes), _) => self.push(axes, at),
+            _ => self.push([0; 3], at),
         }
     }
 
-    /// Keys that thrust along these axes, and the release of those before. Keys that are down are pressed again, since
-    /// a window that loses its focus releases all.
-    fn press(&mut self, axes: [i8; 3], at: Nanos) -> Vec<Sample> {
-        let wanted: Vec<KeyboardKey> = axes
-            .into_iter()
-            .zip(THRUST_KEYS)
-            .filter_map(|(axis, [negative, positive])| match axis {
-                0 => None,
-                _ => self.desk.keys.key_for(if axis < 0 { negative } else { positive }),
-            })
-            .collect();
-        let released = self.down.iter().filter(|key| !wanted.contains(key)).map(|key| (*key, false));
-        let pressed = wanted.iter().map(|key| (*key, true));
-        let samples = released.chain(pressed).map(|(key, down)| Sample::key(at, key, down)).collect();
-        self.down = wanted;
-        samples
+    /// Thrust along these axes from now on, where that is news.
+    fn push(&mut self, axes: [i8; 3], at: Nanos) -> Vec<Sample> {
+        if std::mem::replace(&mut self.pushed, axes) == axes {
+            return Vec::new();
+        }
+        vec![Sample::action(at, &Action::Thrust(axes.map(f64::from)))]
     }
 
     /// Samples that release everything at the ride's time `now`.
     pub(crate) fn end(&mut self, now: Nanos) -> Vec<Sample> {
-        let mut samples = self.press([0; 3], now);
+        let mut samples = self.push([0; 3], now);
         if self.cyclist.take().is_some() {
             samples.push(Sample::closed(now, SampleSource::Bicycle));
         }

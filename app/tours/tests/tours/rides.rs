@@ -205,7 +205,7 @@ fn a_tour_that_is_stopped_goes_on_where_it_was() {
     };
     let (through, stopped) = (ride(false), ride(true));
     assert!((through.1 - stopped.1).abs() < 0.1, "{} {}", through.1, stopped.1);
-    assert!(through.0.distance(stopped.0) < 1.5, "{} {}", through.0, stopped.0);
+    assert!(through.0.distance(stopped.0) < 2.0, "{} {}", through.0, stopped.0);
 }
 
 #[test]
@@ -274,7 +274,7 @@ fn twins(frames_per_second: u64, mut meddle: impl FnMut(u64, Nanos) -> Vec<Sampl
 #[test]
 fn the_traveller_comes_back_whatever_the_visitor_does_and_however_late_frames_come() {
     let quiet = twins(60, |_, _| Vec::new());
-    assert!(quiet.0 < 0.2, "{quiet:?}");
+    assert!(quiet.0 < 0.1, "{quiet:?}");
     let act = |now, action: Action| vec![Sample::action(now, &action)];
     // Held by the visitor for a while, in the middle of a station.
     let held = twins(60, |frame, now| match frame {
