@@ -62,11 +62,10 @@ impl Walls {
     /// [`GpuError::Lost`] if the device went away.
     pub fn develop(&mut self, gpu: &Gpu, channel: usize, development: &Development) -> Result<RgbaImage, GpuError> {
         let [width, height] = self.display.channels[channel].size();
-        let sheet = Sheet::new(gpu, [width, height], SCREEN_FORMAT);
+        let sheet = Sheet::new(gpu, [width, height], self.screen);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.show(gpu, &mut encoder, channel, development, &sheet.view(), [0, 0, width, height], false);
-        let pixels = sheet.fetch(gpu, encoder)?;
-        Ok(RgbaImage::from_raw(width, height, pixels).expect("the sheet has four bytes a pixel"))
+        Ok(picture([width, height], self.screen, sheet.fetch(gpu, encoder)?))
     }
 
     /// Developed picture of a window, with all its channels.
@@ -80,11 +79,10 @@ impl Walls {
         development: &Development,
     ) -> Result<RgbaImage, GpuError> {
         let [width, height] = self.display.windows[window].size;
-        let sheet = Sheet::new(gpu, [width, height], SCREEN_FORMAT);
+        let sheet = Sheet::new(gpu, [width, height], self.screen);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.show_window(gpu, &mut encoder, window, development, &sheet.view(), [0, 0]);
-        let pixels = sheet.fetch(gpu, encoder)?;
-        Ok(RgbaImage::from_raw(width, height, pixels).expect("the sheet has four bytes a pixel"))
+        Ok(picture([width, height], self.screen, sheet.fetch(gpu, encoder)?))
     }
 
     /// Picture of the room as an onlooker sees it.
@@ -103,8 +101,7 @@ impl Walls {
         let mut preview = Preview::new(gpu, self, SCREEN_FORMAT);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         preview.draw(gpu, &mut encoder, self, (occupant, onlooker), development, &sheet.view());
-        let pixels = sheet.fetch(gpu, encoder)?;
-        Ok(RgbaImage::from_raw(size[0], size[1], pixels).expect("the sheet has four bytes a pixel"))
+        Ok(picture(size, SCREEN_FORMAT, sheet.fetch(gpu, encoder)?))
     }
 
     /// Picture of a channel in linear light, for further processing.
@@ -179,4 +176,13 @@ impl Walls {
         let channel = SheetChannel { screen: surface, eye_m, viewport, gains, gamma };
         self.sheet_passes.draw(gpu, encoder, screen, &self.sheets, &channel);
     }
+}
+
+/// Picture of the bytes of a screen.
+fn picture([width, height]: [u32; 2], format: wgpu::TextureFormat, mut bytes: Vec<u8>) -> RgbaImage {
+    // Screens may hold blue first.
+    if format.remove_srgb_suffix() == wgpu::TextureFormat::Bgra8Unorm {
+        bytes.chunks_exact_mut(4).for_each(|pixel| pixel.swap(0, 2));
+    }
+    RgbaImage::from_raw(width, height, bytes).expect("a screen has four bytes a pixel")
 }

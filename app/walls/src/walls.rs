@@ -60,6 +60,8 @@ pub struct Walls {
     pub display: Display,
     pub(crate) quality: Quality,
     pub(crate) pictures: Vec<ChannelPicture>,
+    /// Format of the screens.
+    pub(crate) screen: wgpu::TextureFormat,
     /// Passes that develop pictures for the screens.
     pub(crate) passes: Developer,
     /// Passes that develop pictures into linear light.
@@ -106,6 +108,7 @@ impl Walls {
             sheets: Vec::new(),
             sheet_passes: SheetPasses::default(),
             grids: None,
+            screen,
             passes,
             quality,
             display,
