@@ -27,7 +27,7 @@ pub struct VehicleSettings {
     /// True if clocks show the same time after a change of the speed of light as before; false in recordings made
     /// before they did.
     #[serde(default = "not_in_old_recordings")]
-    pub keeps_time: bool,
+    pub keeps_seconds: bool,
 }
 
 fn not_in_old_recordings() -> bool {
@@ -44,7 +44,7 @@ impl Default for VehicleSettings {
             eye_m: [0.0, view::EYE_HEIGHT_M, 0.0],
             assist: AssistMode::Off,
             keeps_to_ground: true,
-            keeps_time: true,
+            keeps_seconds: true,
         }
     }
 }
@@ -55,7 +55,7 @@ impl VehicleSettings {
     /// # Errors
     /// [`SettingsError`] for the first setting that cannot be used.
     pub fn check(&self) -> Result<(), SettingsError> {
-        let Self { bicycle, flight, integrator: _, eye_m, assist: _, keeps_to_ground: _, keeps_time: _ } = self;
+        let Self { bicycle, flight, integrator: _, eye_m, assist: _, keeps_to_ground: _, keeps_seconds: _ } = self;
         let positive = [
             ("bicycle.wheelbase_m", bicycle.wheelbase_m),
             ("bicycle.pedal_response_s", bicycle.pedal_response_s),

@@ -133,7 +133,7 @@ impl Vehicle {
 
     /// Changes the speed of light. Celerity and place stay unchanged, and so do the times of all clocks in seconds.
     pub fn set_light_speed(&mut self, light_speed: LightSpeed) {
-        if self.settings.keeps_time {
+        if self.settings.keeps_seconds {
             let longer = light_speed.speed_of_light_m_s() / self.light_speed.speed_of_light_m_s();
             (self.state.ct, self.state.proper_time) = (self.state.ct * longer, self.state.proper_time * longer);
         }

@@ -281,9 +281,9 @@ fn a_restart_is_a_new_ride_in_the_same_world() {
 #[test]
 fn a_change_of_the_speed_of_light_changes_no_clock() {
     let change = [Sample::key(0, KeyboardKey::R, true), Sample::action(2 * SECOND, &Action::SpeedOfLight(2.0))];
-    for keeps_time in [true, false] {
+    for keeps_seconds in [true, false] {
         let mut setup = simulation(VehicleKind::Fly).setup().clone();
-        setup.vehicle.keeps_time = keeps_time;
+        setup.vehicle.keeps_seconds = keeps_seconds;
         let mut ride = Simulation::new(setup, Arc::new(OpenPlane)).unwrap();
         let ride = frames(&mut ride, &change, times(3));
         let last = &ride[ride.len() - 1];
@@ -291,7 +291,7 @@ fn a_change_of_the_speed_of_light_changes_no_clock() {
         let (state, odometer) = (last.vehicle.state(), last.vehicle.odometer());
         let seconds = [state.ct, state.proper_time].map(|metres| light.seconds(metres));
         let agrees = (seconds[0] - odometer.world_s).abs() < 1e-3 && (seconds[1] - odometer.own_s).abs() < 1e-9;
-        assert_eq!(agrees, keeps_time, "{seconds:?} {odometer:?}");
+        assert_eq!(agrees, keeps_seconds, "{seconds:?} {odometer:?}");
     }
 }
 
