@@ -24,6 +24,10 @@ pub struct VehicleSettings {
     /// recordings made before it did.
     #[serde(default = "not_in_old_recordings")]
     pub keeps_to_ground: bool,
+    /// True if RK4 takes a step that would last longer for the chosen integrator than for the rider; false in
+    /// recordings made before it did.
+    #[serde(default = "not_in_old_recordings")]
+    pub keeps_time: bool,
 }
 
 fn not_in_old_recordings() -> bool {
@@ -40,6 +44,7 @@ impl Default for VehicleSettings {
             eye_m: [0.0, view::EYE_HEIGHT_M, 0.0],
             assist: AssistMode::Off,
             keeps_to_ground: true,
+            keeps_time: true,
         }
     }
 }
@@ -50,7 +55,7 @@ impl VehicleSettings {
     /// # Errors
     /// [`SettingsError`] for the first setting that cannot be used.
     pub fn check(&self) -> Result<(), SettingsError> {
-        let Self { bicycle, flight, integrator: _, eye_m, assist: _, keeps_to_ground: _ } = self;
+        let Self { bicycle, flight, integrator: _, eye_m, assist: _, keeps_to_ground: _, keeps_time: _ } = self;
         let positive = [
             ("bicycle.wheelbase_m", bicycle.wheelbase_m),
             ("bicycle.pedal_response_s", bicycle.pedal_response_s),
