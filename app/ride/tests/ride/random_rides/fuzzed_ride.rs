@@ -286,8 +286,8 @@ impl Rider<'_> {
             (MovedBy::Sideways, FRESH_S, &[KeyboardKey::W, KeyboardKey::A]),
             (MovedBy::Sideways, FRESH_S, &[KeyboardKey::W, KeyboardKey::D]),
             (MovedBy::Backward, FRESH_S, &[KeyboardKey::S]),
-            (MovedBy::Patience, PATIENT_S, &[KeyboardKey::W]),
             (MovedBy::Patience, PATIENT_S, &[KeyboardKey::S]),
+            (MovedBy::Patience, PATIENT_S, &[KeyboardKey::W]),
             (MovedBy::Patience, PATIENT_S, &[KeyboardKey::W, KeyboardKey::A]),
             (MovedBy::Patience, PATIENT_S, &[KeyboardKey::W, KeyboardKey::D]),
         ];
