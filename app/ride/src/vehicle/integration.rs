@@ -22,15 +22,18 @@ impl Vehicle {
     pub(super) fn integrate(&mut self, own_s: f64, control: &dyn Control) {
         let before = self.state.celerity;
         let step = self.light_speed.metres(own_s);
+        let keeps_time = self.settings.keeps_time;
         let taken = match self.settings.integrator {
             IntegratorKind::Rk4 => self.in_short_steps(step, control),
-            IntegratorKind::Exact if self.change(step, control) > LARGEST_EXACT_CHANGE => {
+            IntegratorKind::Exact if keeps_time && self.change(step, control) > LARGEST_EXACT_CHANGE => {
                 self.tell(Notice::TakenByRk4);
                 self.in_short_steps(step, control)
             }
             IntegratorKind::Exact => Exact.step(&self.state, step, control),
             IntegratorKind::DormandPrince => {
-                DormandPrince::default().with_most_trials(MOST_TRIALS).step(&self.state, step, control)
+                let adaptive = DormandPrince::default();
+                let adaptive = if keeps_time { adaptive.with_most_trials(MOST_TRIALS) } else { adaptive };
+                adaptive.step(&self.state, step, control)
             }
         };
         let taken = taken.or_else(|_| {

@@ -28,6 +28,10 @@ pub struct VehicleSettings {
     /// before they did.
     #[serde(default = "not_in_old_recordings")]
     pub keeps_seconds: bool,
+    /// True if RK4 takes a step that would last longer for the chosen integrator than for the rider; false in
+    /// recordings made before it did.
+    #[serde(default = "not_in_old_recordings")]
+    pub keeps_time: bool,
 }
 
 fn not_in_old_recordings() -> bool {
@@ -45,6 +49,7 @@ impl Default for VehicleSettings {
             assist: AssistMode::Off,
             keeps_to_ground: true,
             keeps_seconds: true,
+            keeps_time: true,
         }
     }
 }
@@ -55,7 +60,16 @@ impl VehicleSettings {
     /// # Errors
     /// [`SettingsError`] for the first setting that cannot be used.
     pub fn check(&self) -> Result<(), SettingsError> {
-        let Self { bicycle, flight, integrator: _, eye_m, assist: _, keeps_to_ground: _, keeps_seconds: _ } = self;
+        let Self {
+            bicycle,
+            flight,
+            integrator: _,
+            eye_m,
+            assist: _,
+            keeps_to_ground: _,
+            keeps_seconds: _,
+            keeps_time: _,
+        } = self;
         let positive = [
             ("bicycle.wheelbase_m", bicycle.wheelbase_m),
             ("bicycle.pedal_response_s", bicycle.pedal_response_s),

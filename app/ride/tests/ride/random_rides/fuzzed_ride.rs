@@ -281,12 +281,13 @@ impl Rider<'_> {
             clear.push(Sample::action(at, &Action::TogglePause));
         }
         clear.push(Sample::action(at, &Action::TimeScale(1.0)));
-        let trials: [(MovedBy, f64, &[KeyboardKey]); 7] = [
+        let trials: [(MovedBy, f64, &[KeyboardKey]); 8] = [
             (MovedBy::Ahead, FRESH_S, &[KeyboardKey::W]),
             (MovedBy::Sideways, FRESH_S, &[KeyboardKey::W, KeyboardKey::A]),
             (MovedBy::Sideways, FRESH_S, &[KeyboardKey::W, KeyboardKey::D]),
             (MovedBy::Backward, FRESH_S, &[KeyboardKey::S]),
             (MovedBy::Patience, PATIENT_S, &[KeyboardKey::S]),
+            (MovedBy::Patience, PATIENT_S, &[KeyboardKey::W]),
             (MovedBy::Patience, PATIENT_S, &[KeyboardKey::W, KeyboardKey::A]),
             (MovedBy::Patience, PATIENT_S, &[KeyboardKey::W, KeyboardKey::D]),
         ];
