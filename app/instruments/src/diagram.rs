@@ -226,10 +226,9 @@ impl<'a> Sheet<'a> {
         let start = trail.start().map(|event| (words.start, event, EVENT));
         let all: Vec<(&str, Event, Color32)> = marked.chain(seen).chain(start).collect();
         for (name, event, colour) in all {
-            if let Some(at) = pen.dot(self.at(self.map.place(event)), 4.5, colour) {
-                if !name.is_empty() {
-                    pen.label(at + Vec2::new(9.0, 0.0), Align2::LEFT_CENTER, name, colour);
-                }
+            let dot = pen.dot(self.at(self.map.place(event)), 4.5, colour);
+            if let Some(at) = dot.filter(|_| !name.is_empty()) {
+                pen.label(at + Vec2::new(9.0, 0.0), Align2::LEFT_CENTER, name, colour);
             }
         }
     }
