@@ -40,7 +40,8 @@ pub fn readings(ride: &RideInProgress, language: Language, kiosk: bool) -> Readi
         invitation: ride.live.invites().then(|| language.text(Phrase::Invitation).to_owned()),
         language,
         kiosk,
-        paused: frame.paused,
+        // A tour that waits says itself what goes on.
+        paused: frame.paused && !ride.live.caption().is_some_and(|caption| caption.waits),
         recording: ride.live.is_recording(),
     }
 }

@@ -143,7 +143,7 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::Odometer => "your odometer",
         Phrase::GammaRapidity => "γ · rapidity",
         Phrase::Recording => "recording",
-        Phrase::Paused => "held: P goes on",
+        Phrase::Paused => "held: P to go on",
         Phrase::HelpAndMenu => "F1 help · F3 menu",
         Phrase::HelpKey => "F1 help",
         Phrase::FramesPerSecond => "{0} frames/s",
