@@ -190,7 +190,7 @@ pub fn text(phrase: Phrase) -> &'static str {
              schauen selbst"
         }
         Phrase::KeyAhead => "wieder nach vorn schauen, wie die mittlere Maustaste",
-        Phrase::KeyStraight => "gerade sitzen: Ort und Richtung des verfolgten Kopfes werden die Mitte",
+        Phrase::KeyStraight => "Ort und Richtung deines Kopfes werden die Mitte",
         Phrase::KeyBack => "zurückschauen, solange gehalten",
         Phrase::KeyVehicles => "Fahrrad, Auto, Flug",
         Phrase::KeyPause => "die Welt anhalten oder weitergehen lassen; umsehen geht weiter",
