@@ -16,6 +16,9 @@ pub mod making;
 pub mod outside_look;
 pub mod preferences;
 mod recorded_ride;
+#[cfg(test)]
+#[path = "recorded/tests.rs"]
+mod recorded_tests;
 pub mod reel;
 pub mod scenes;
 pub mod start;

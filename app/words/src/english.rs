@@ -181,9 +181,7 @@ pub fn text(phrase: Phrase) -> &'static str {
             "look left, right, up, down, as a drag of the mouse does; rooms and tracked heads look by themselves"
         }
         Phrase::KeyAhead => "look ahead again, as the middle button does",
-        Phrase::KeyStraight => {
-            "sit straight: with a tracked head, its present place and direction become the middle ones"
-        }
+        Phrase::KeyStraight => "your head's present place and direction become the middle ones",
         Phrase::KeyBack => "look back, as long as it is held",
         Phrase::KeyVehicles => "bicycle, drive, fly",
         Phrase::KeyPause => "hold the world, or let it go on; you can still look around",
