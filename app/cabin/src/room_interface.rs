@@ -105,7 +105,7 @@ impl RoomInterface {
             head_m: display.viewer.head_m,
             readings: PlacedSheet::new(gpu, [700.0, 210.0], [0.0, -31.0], [2.0, 2.4]),
             menu: PlacedSheet::new(gpu, [560.0, 300.0], [0.0, 18.0], [1.5, 1.5]),
-            help: PlacedSheet::new(gpu, [840.0, 830.0], [-62.0, 0.0], [1.6, 1.95]),
+            help: PlacedSheet::new(gpu, [840.0, 940.0], [-69.0, 0.0], [1.6, 1.95]),
             guide: PlacedSheet::new(gpu, [720.0, 460.0], [61.0, 0.0], [1.6, 2.0]),
             caption: PlacedSheet::new(gpu, [560.0, 220.0], [0.0, -9.0], [1.6, 1.5]),
             pointed_at: false,
