@@ -38,7 +38,7 @@ const FRAMES: usize = 6;
 /// Time for which each table is measured, seconds.
 const SECONDS: f64 = 30.0;
 /// Side of a wall, pixels.
-const SIDE: u32 = 320;
+const SIDE: u32 = 640;
 /// Vertical field of view of the window, degrees.
 const FOV_DEG: f64 = 60.0;
 /// Frames per second of the ride, and the time that is ridden before any is drawn, seconds.

@@ -8,11 +8,13 @@ use input::{Action, WandButtons, WandState};
 use interface::{Caption, ClockRow, DrawnSheet, MenuPage, MenuRide, Readings, SheetPointer};
 use presentation::Presentation;
 use render::Gpu;
-use room::{Display, EyeSide};
+use room::{Channel, Display, EyeSide};
 use walls::{RoomSheet, SheetHit, meet};
 
-/// Pixels for each point of a sheet, along each axis.
-const PIXELS_PER_POINT: f32 = 2.0;
+/// Least and most pixels for each point of a sheet, along each axis, and the factor by which a sheet is finer than the
+/// finest channel shows it.
+const PIXELS_PER_POINT: [f64; 2] = [0.75, 2.0];
+const FINER: f64 = 1.5;
 /// Half width of a pointer's beam, and its reach where it meets nothing, metres.
 const BEAM_M: (f64, f64) = (0.004, 4.0);
 
@@ -70,8 +72,13 @@ pub struct RoomInterface {
 }
 
 impl PlacedSheet {
-    fn new(gpu: &Gpu, points: [f32; 2], towards_deg: [f64; 2], size_m: [f64; 2]) -> Self {
-        let drawn = DrawnSheet::new(gpu, points, PIXELS_PER_POINT);
+    /// Sheet of so many points, towards a direction, at a distance and of a width. `pixels_per_rad`: those of the finest
+    /// channel.
+    fn new((gpu, pixels_per_rad): (&Gpu, f64), points: [f32; 2], towards_deg: [f64; 2], size_m: [f64; 2]) -> Self {
+        let [distance_m, width_m] = size_m;
+        let points_per_rad = f64::from(points[0]) / width_m * distance_m;
+        let [least, most] = PIXELS_PER_POINT;
+        let drawn = DrawnSheet::new(gpu, points, (FINER * pixels_per_rad / points_per_rad).clamp(least, most) as f32);
         Self { drawn, towards_rad: towards_deg.map(f64::to_radians), size_m }
     }
 
@@ -101,13 +108,14 @@ impl RoomInterface {
     /// Sheets about the viewer of a display.
     pub fn new(gpu: &Gpu, display: &Display) -> Self {
         let amber = [255, 179, 71, 255];
+        let fine = (gpu, pixels_per_rad(display));
         Self {
             head_m: display.viewer.head_m,
-            readings: PlacedSheet::new(gpu, [700.0, 210.0], [0.0, -31.0], [2.0, 2.4]),
-            menu: PlacedSheet::new(gpu, [560.0, 300.0], [0.0, 18.0], [1.5, 1.5]),
-            help: PlacedSheet::new(gpu, [840.0, 940.0], [-69.0, 0.0], [1.6, 1.95]),
-            guide: PlacedSheet::new(gpu, [720.0, 460.0], [61.0, 0.0], [1.6, 2.0]),
-            caption: PlacedSheet::new(gpu, [560.0, 220.0], [0.0, -9.0], [1.6, 1.5]),
+            readings: PlacedSheet::new(fine, [700.0, 210.0], [0.0, -31.0], [2.0, 2.4]),
+            menu: PlacedSheet::new(fine, [560.0, 300.0], [0.0, 18.0], [1.5, 1.5]),
+            help: PlacedSheet::new(fine, [840.0, 940.0], [-69.0, 0.0], [1.6, 1.95]),
+            guide: PlacedSheet::new(fine, [720.0, 460.0], [61.0, 0.0], [1.6, 2.0]),
+            caption: PlacedSheet::new(fine, [560.0, 220.0], [0.0, -9.0], [1.6, 1.5]),
             pointed_at: false,
             beam: render::view_from_rows(gpu, "beam", [1, 1, 1], wgpu::TextureFormat::Rgba8Unorm, &amber),
         }
@@ -192,6 +200,23 @@ impl RoomInterface {
         let up_m = across * 2.0 * half_m;
         RoomSheet { corner_m: ray.from_m - 0.5 * up_m, right_m, up_m, picture: self.beam.clone() }
     }
+}
+
+/// Pixels that the finest flat screen shows for each radian, straight before the viewer; as fine as any sheet where no
+/// screen is flat.
+fn pixels_per_rad(display: &Display) -> f64 {
+    let of = |channel: &Channel| {
+        let flat = channel.flat(display)?;
+        let normal = flat.right.cross(flat.up).normalize();
+        let distance_m = (flat.lower_left - display.viewer.head_m).dot(normal).abs();
+        Some(f64::from(channel.viewport[2]) / flat.right.length() * distance_m)
+    };
+    display
+        .channels
+        .iter()
+        .filter_map(of)
+        .fold(None, |finest: Option<f64>, pixels| Some(finest.map_or(pixels, |finest| finest.max(pixels))))
+        .unwrap_or(f64::MAX)
 }
 
 /// Ray of a wand whose place is known. `buttons`: actions of its buttons, of which those that choose press.
