@@ -72,8 +72,8 @@ pub struct RoomInterface {
 }
 
 impl PlacedSheet {
-    /// Sheet of so many points, towards a direction, at a distance and of a width. `pixels_per_rad`: those of the finest
-    /// channel.
+    /// Sheet of so many points, towards a direction, at a distance and of a width. `pixels_per_rad`: those of the
+    /// finest channel.
     fn new((gpu, pixels_per_rad): (&Gpu, f64), points: [f32; 2], towards_deg: [f64; 2], size_m: [f64; 2]) -> Self {
         let [distance_m, width_m] = size_m;
         let points_per_rad = f64::from(points[0]) / width_m * distance_m;
