@@ -112,14 +112,18 @@ impl Open {
         self.has_clockwork = has_clockwork(&choice.scene);
         let start = choice.scene.start;
         self.set_map_scale(choice.dial);
-        let mut renderer = upload(&self.gpu, choice, &options, self.format)?;
         let shown = (presentation.effects, presentation.fov_deg, &presentation.development);
-        let took = self.canvas.warm_up(&self.gpu, &mut renderer, &start, shown, &unseen(&self.gpu, &self.windows))?;
+        let unseen = unseen(&self.gpu, &self.windows);
+        let ready = upload(&self.gpu, choice, &options, self.format).and_then(|mut renderer| {
+            let took = self.canvas.warm_up(&self.gpu, &mut renderer, &start, shown, &unseen)?;
+            Ok((renderer, took))
+        });
 
-        // Devices are opened by one ride at a time.
+        // Whatever comes of it, the recording of the ride before is whole. Devices are opened by one ride at a time.
         if let Err(error) = self.ride.live.finish() {
             tell(error);
         }
+        let (renderer, took) = ready?;
         drop(self.ride);
         self.ride = RideInProgress::new(renderer, begin()?, options.frame_rate.governor());
         self.ride.begin(&mut self.canvas, took);

@@ -86,8 +86,8 @@ fn a_ride_that_is_ended_while_its_windows_open_leaves_no_broken_recording() {
     }
 }
 
-/// A rider who goes on in another scene, drawn in another way, loses nothing: the recording of the ride before is whole,
-/// and a replay shows it drawn as its rider wished.
+/// A rider who goes on in another scene, drawn in another way, loses nothing: the recording of the ride before is
+/// whole, and a replay shows it drawn as its rider wished.
 #[test]
 fn a_rider_changes_scene_and_method_in_mid_ride() {
     let folder = tempfile::tempdir().unwrap();
