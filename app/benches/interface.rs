@@ -1,8 +1,7 @@
-//! The cost of what explains a ride: display, menu, map and diagram, in a window and in a room of four walls for two
-//! eyes, on the default path.
+//! The cost of what explains a ride: menu, map and diagram, in a window and in a room of four walls for two eyes, on
+//! the default path, beside frames with the head-up display alone.
 //!
-//! A cyclist rides through the old town for a minute; the frames after it are drawn with and without the interface, in
-//! turns, so that other load on the machine affects both alike. Everything is open at once, and the readings change
+//! A cyclist rides through the old town for a minute; the frames after it are drawn with and without them, in turns, so that other load on the machine affects both alike. Everything is open at once, and the readings change
 //! from frame to frame, so every picture of the interface is drawn anew.
 //!
 //! `cargo bench -p rapidity --bench interface`, or with words after `--`: a size of the window, as in `640x360`;
@@ -13,7 +12,7 @@ mod support;
 
 use cabin::{Guide, RoomInterface, Shown};
 use input::{DeskConfig, SECOND};
-use interface::{DrawnSheet, MenuPage, MenuRide, Readings, SheetPointer};
+use interface::{MenuPage, MenuRide, Painter, Readings};
 use presentation::Presentation;
 use render::display::Development;
 use render::picture::SCREEN_FORMAT;
@@ -50,7 +49,7 @@ const WORDS: &str = "a size, as in 640x360, side=N, and seconds, as in 10s";
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = Words::given();
-    let size = words.size().unwrap_or([1280, 720]);
+    let size = words.size().unwrap_or([1920, 1080]);
     let side = words.list("side")?.first().copied().unwrap_or(SIDE).clamp(1, 8192);
     let seconds = Duration::from_secs_f64(words.seconds().unwrap_or(SECONDS));
     words.end(WORDS)?;
@@ -60,7 +59,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = default_path::scene("town")?;
     let frames = ridden(&scene)?;
     let default = DefaultPath::of(&gpu, &scene)?;
-    println!("{}, menu, map, diagram and display; ratio to the same frames without", default.name());
+    println!("{}, menu, map and diagram; ratio to the same frames with the display alone", default.name());
 
     for (name, place) in
         [(format!("window of {} x {}", size[0], size[1]), None), (format!("cave4, walls of {side}"), Some(side))]
@@ -102,7 +101,7 @@ fn ridden(scene: &Scene) -> Result<Vec<RideFrame>, Box<dyn Error>> {
 
 /// Target of the frames.
 enum Target {
-    Window(Box<FlatPicture>, Box<DrawnSheet>),
+    Window(Box<FlatPicture>, egui::Context, Box<Painter>),
     Room(Box<Walls>, Box<RoomInterface>),
 }
 
@@ -114,7 +113,8 @@ struct Bench<'a> {
     screens: Vec<wgpu::TextureView>,
     guide: Guide,
     page: MenuPage,
-    shown: Presentation,
+    /// Presentation with the display alone, and with everything.
+    shown: [Presentation; 2],
     number: usize,
 }
 
@@ -132,8 +132,7 @@ impl<'a> Bench<'a> {
         let target = match side {
             None => {
                 let picture = FlatPicture::new(gpu, size, format, SCREEN_FORMAT, dial.map_scale.unwrap_or(1.0));
-                let sheet = DrawnSheet::new(gpu, size.map(|side| side as f32), 1.0);
-                Target::Window(Box::new(picture), Box::new(sheet))
+                Target::Window(Box::new(picture), interface::layouts(), Box::new(Painter::new(gpu, SCREEN_FORMAT)))
             }
             Some(side) => {
                 let mut display = Display::built_in("cave4").ok_or("cave4 is built in")?;
@@ -151,8 +150,9 @@ impl<'a> Bench<'a> {
         };
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let mut guide = Guide::new(scene);
-        let shown = Presentation { effects, menu: true, miniature: true, diagram: true, ..Presentation::default() };
-        frames.iter().for_each(|frame| guide.note(frame, &shown, 1.5));
+        let plain = Presentation { effects, ..Presentation::default() };
+        let shown = [plain, Presentation { menu: true, miniature: true, diagram: true, ..plain }];
+        frames.iter().for_each(|frame| guide.note(frame, &shown[0], 1.5));
         Ok(Self {
             frames,
             renderer: SceneRenderer::new(gpu, scene.clone(), format, None, dial, Occasion::Ride)?,
@@ -165,12 +165,13 @@ impl<'a> Bench<'a> {
         })
     }
 
-    /// Draws a frame, with the interface if it `explains`.
+    /// Draws a frame, with menu, map and diagram if it `explains`.
     fn frame(&mut self, gpu: &Gpu, explains: bool) -> Result<(), Box<dyn Error>> {
         self.number += 1;
         let frame = &self.frames[self.frames.len() - WAY + self.number % WAY];
         let development = Development::default();
-        let effects: Effects = self.shown.effects;
+        let shown = &self.shown[usize::from(explains)];
+        let effects: Effects = shown.effects;
         let odometer = frame.vehicle.odometer();
         let celerity = frame.gaze.observer.celerity;
         let readings = Readings {
@@ -187,32 +188,43 @@ impl<'a> Bench<'a> {
         let menu = MenuRide {
             speed_of_light: readings.speed_of_light,
             time_scale: 1.0,
-            places: self.guide.places(self.shown.language),
+            places: self.guide.places(shown.language),
             overlaps: true,
             is_flat: true,
             ..MenuRide::default()
         };
-        if explains {
-            self.guide.note(frame, &self.shown, 1.5);
-        }
-        let clocks = if explains { self.guide.wanted_clocks(frame, &self.shown) } else { Vec::new() };
+        self.guide.note(frame, shown, 1.5);
+        let clocks = self.guide.wanted_clocks(frame, shown);
         let now_s = self.number as f64 / RATE as f64;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         match &mut self.target {
-            Target::Window(picture, sheet) => {
+            Target::Window(picture, context, painter) => {
                 let shot = frame.gaze.shot(FOV_DEG, effects);
                 let pending = self.renderer.submit(gpu, &shot.observer, effects)?;
                 picture.draw(gpu, &mut self.renderer, &shot, pending)?;
                 picture.adapt(gpu, &development, Some(0.03));
                 picture.show(gpu, &mut encoder, &development, &self.screens[0]);
-                if explains {
-                    let (shown, guide, page) = (&self.shown, &self.guide, &mut self.page);
-                    sheet.draw(gpu, now_s, (SheetPointer::default(), &[]), |ui| {
-                        interface::show_readings(ui, &readings);
-                        guide.show(ui, shown, &clocks);
+                let (guide, page) = (&self.guide, &mut self.page);
+                let [width, height] = [self.screens[0].texture().width(), self.screens[0].texture().height()];
+                let screen = egui::Vec2::new(width as f32, height as f32);
+                let input = egui::RawInput {
+                    screen_rect: Some(egui::Rect::from_min_size(egui::Pos2::ZERO, screen)),
+                    time: Some(now_s),
+                    ..Default::default()
+                };
+                let output = context.run_ui(input, |ui| {
+                    interface::show_readings(ui, &readings);
+                    guide.show(ui, shown, &clocks);
+                    if explains {
                         interface::menu_window(ui, page, shown, &menu);
-                    });
-                }
+                    }
+                });
+                let shapes = context.tessellate(output.shapes, output.pixels_per_point);
+                painter.take_textures(gpu, &output.textures_delta);
+                let mut pass = render::display::over(&mut encoder, &self.screens[0]);
+                painter.paint(gpu, &mut pass, &shapes, ([width, height], output.pixels_per_point));
+                drop(pass);
+                painter.forget_textures(&output.textures_delta);
             }
             Target::Room(walls, interface) => {
                 let (vehicle, thrust) = (*frame.vehicle.state(), *frame.vehicle.thrust());
@@ -220,19 +232,16 @@ impl<'a> Bench<'a> {
                 let submitted = walls.submit(gpu, &mut self.renderer, &occupant, effects)?;
                 walls.draw(gpu, &mut self.renderer, submitted)?;
                 walls.adapt(gpu, &development, Some(0.03));
-                walls.sheets.clear();
-                if explains {
-                    let shown = Shown {
-                        presentation: &self.shown,
-                        readings: &readings,
-                        menu: Some(&menu),
-                        caption: None,
-                        clocks: &clocks,
-                        keys: &[],
-                        now_s,
-                    };
-                    (walls.sheets, _) = interface.draw(gpu, &shown, &self.guide, &mut self.page, None);
-                }
+                let shown = Shown {
+                    presentation: shown,
+                    readings: &readings,
+                    menu: Some(&menu).filter(|_| explains),
+                    caption: None,
+                    clocks: &clocks,
+                    keys: &[],
+                    now_s,
+                };
+                (walls.sheets, _) = interface.draw(gpu, &shown, &self.guide, &mut self.page, None);
                 for (window, screen) in self.screens.iter().enumerate() {
                     walls.show_window(gpu, &mut encoder, window, &development, screen, [0, 0]);
                 }

@@ -159,6 +159,14 @@ pub struct PlacementUniforms {
     pub odd: f32,
 }
 
+/// Interface's picture.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct InterfaceUniforms {
+    /// Size of the picture, points.
+    pub size: Vec2,
+}
+
 /// Flat picture of what an eye sees, taken to be shown on a surface that is not flat. Axes of the room.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]

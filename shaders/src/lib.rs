@@ -22,10 +22,10 @@ pub use constants::{
     VIEW_GROUP,
 };
 pub use layout::{
-    AccumulateUniforms, AdaptationState, AtlasTile, FacetUniforms, LightingUniforms, MapUniforms, MaterialUniforms,
-    MeteringUniforms, PlacementUniforms, RoomViewUniforms, SheetUniforms, ViewUniforms,
+    AccumulateUniforms, AdaptationState, AtlasTile, FacetUniforms, InterfaceUniforms, LightingUniforms, MapUniforms,
+    MaterialUniforms, MeteringUniforms, PlacementUniforms, RoomViewUniforms, SheetUniforms, ViewUniforms,
 };
 pub use modules::{
-    ACCUMULATE, COMBINE, COPY, DISPLAY, ENCODED, ENLARGE, MARKS, METER, MODULES, Module, PROBE, RESAMPLE, ROOM, SHADOW,
-    SHEET, SKY, SURFACE, WARP,
+    ACCUMULATE, COMBINE, COPY, DISPLAY, ENCODED, ENLARGE, INTERFACE, MARKS, METER, MODULES, Module, PROBE, RESAMPLE,
+    ROOM, SHADOW, SHEET, SKY, SURFACE, WARP,
 };

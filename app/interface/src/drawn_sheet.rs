@@ -1,7 +1,7 @@
 //! Sheets in the vehicle: an egui interface of its own, drawn into a texture.
 
+use crate::painter::{Painter, layouts};
 use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Ui, Vec2};
-use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
 use render::Gpu;
 use render::target::texture;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -21,7 +21,7 @@ pub struct SheetPointer {
 /// Interface on a sheet: its contents, and the texture that they are drawn into.
 pub struct DrawnSheet {
     context: egui::Context,
-    renderer: Renderer,
+    painter: Painter,
     picture: wgpu::TextureView,
     /// Size of the sheet, points.
     size: Vec2,
@@ -36,15 +36,13 @@ pub struct DrawnSheet {
 impl DrawnSheet {
     /// Sheet of `size` points, with so many pixels for each point along each axis.
     pub fn new(gpu: &Gpu, size: [f32; 2], pixels_per_point: f32) -> Self {
-        let context = egui::Context::default();
-        context.set_theme(egui::Theme::Dark);
         let pixels = size.map(|points| (points * pixels_per_point).round() as u32);
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
             | wgpu::TextureUsages::TEXTURE_BINDING
             | wgpu::TextureUsages::COPY_SRC;
         Self {
-            context,
-            renderer: Renderer::new(&gpu.device, FORMAT, RendererOptions::default()),
+            context: layouts(),
+            painter: Painter::new(gpu, FORMAT),
             picture: texture(gpu, "sheet", pixels, FORMAT, 1, usage),
             size: size.into(),
             pixels_per_point,
@@ -94,32 +92,22 @@ impl DrawnSheet {
         if let Some(viewport) = input.viewports.get_mut(&egui::ViewportId::ROOT) {
             viewport.native_pixels_per_point = Some(self.pixels_per_point);
         }
-        let mut output = self.context.run_ui(input, contents);
+        let output = self.context.run_ui(input, contents);
         let shapes = self.context.tessellate(output.shapes, output.pixels_per_point);
         let now = fingerprint(&shapes);
         let changes = self.drawn != Some(now) || !output.textures_delta.set.is_empty();
-        for (id, deltas) in &output.textures_delta.set {
-            for delta in deltas {
-                self.renderer.update_texture(&gpu.device, &gpu.queue, *id, delta);
-            }
-        }
+        self.painter.take_textures(gpu, &output.textures_delta);
         if changes {
             self.drawn = Some(now);
-            let size = self.picture.texture().size();
-            let screen = ScreenDescriptor {
-                size_in_pixels: [size.width, size.height],
-                pixels_per_point: output.pixels_per_point,
-            };
+            let texture = self.picture.texture();
+            let size = [texture.width(), texture.height()];
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let uploads = self.renderer.update_buffers(&gpu.device, &gpu.queue, &mut encoder, &shapes, &screen);
-            let pass = render::display::clear(&mut encoder, &self.picture);
-            self.renderer.render(&mut pass.forget_lifetime(), &shapes, &screen);
-            gpu.queue.submit(uploads.into_iter().chain([encoder.finish()]));
+            let mut pass = render::display::clear(&mut encoder, &self.picture);
+            self.painter.paint(gpu, &mut pass, &shapes, (size, output.pixels_per_point));
+            drop(pass);
+            gpu.queue.submit([encoder.finish()]);
         }
-        for id in &output.textures_delta.free {
-            self.renderer.free_texture(id);
-        }
-        output.textures_delta.clear();
+        self.painter.forget_textures(&output.textures_delta);
     }
 
     /// Events of the pointer since the last layout.

@@ -1,6 +1,5 @@
 //! Help: how to go, how to stop and how to get help, then every key.
 
-use egui::epaint::Shadow;
 use egui::{Align2, Frame, Grid, RichText, ScrollArea, Ui, Vec2, Window};
 use words::{Language, Phrase};
 
@@ -107,7 +106,7 @@ fn keys(ui: &mut Ui, language: Language, rows: &[(&'static str, Phrase)], column
 /// Shows the help on a sheet of its own, which it fills.
 pub fn sheet(ui: &mut Ui, language: Language, kiosk: bool) {
     let whole = ui.max_rect();
-    Frame::window(ui.style()).shadow(Shadow::NONE).show(ui, |ui| {
+    Frame::window(ui.style()).show(ui, |ui| {
         ui.set_min_size(whole.size() - Vec2::splat(SHEET_MARGIN));
         first(ui, language);
         keys(ui, language, &rows(kiosk), 1);

@@ -16,6 +16,7 @@ mod menu_ride;
 mod menu_rows;
 mod menu_world;
 mod notices;
+mod painter;
 
 pub use caption::{
     Caption, CaptionQuestion, ChosenAnswer, film as caption_film, sheet as caption_sheet, window as caption_window,
@@ -27,3 +28,4 @@ pub use hud::{Readings, pace_line, show as show_readings, speed_line};
 pub use menu::{MenuPage, sheet as menu_sheet, show as menu_contents, window as menu_window};
 pub use menu_ride::MenuRide;
 pub use notices::{accuracy, log_fault, notice, replay_fault, uncertainty};
+pub use painter::{Painter, layouts};

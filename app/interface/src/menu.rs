@@ -6,7 +6,6 @@ use crate::controls::Controls;
 use crate::menu_pages::{picture, program, ride, understand};
 use crate::menu_ride::MenuRide;
 use crate::menu_world::world;
-use egui::epaint::Shadow;
 use egui::{Align2, Color32, Frame, RichText, Stroke, Ui, Vec2, Window};
 use input::{Action, Switch};
 use presentation::Presentation;
@@ -85,7 +84,7 @@ fn contents(
 pub fn sheet(ui: &mut Ui, page: &mut MenuPage, presentation: &Presentation, state: &MenuRide) -> Vec<Action> {
     let mut actions = Vec::new();
     let whole = ui.max_rect();
-    Frame::window(ui.style()).shadow(Shadow::NONE).show(ui, |ui| {
+    Frame::window(ui.style()).show(ui, |ui| {
         ui.set_min_size(whole.size() - Vec2::splat(SHEET_MARGIN));
         actions = contents(ui, page, presentation, (state, true));
     });

@@ -39,7 +39,7 @@ const PLAN: [(&str, &[&str]); 31] = [
     ("kiosk", &["input", "ride"]),
     ("tours", &["input", "regular_file", "ride", "scene", "view"]),
     ("presentation", &["input", "render", "view", "words"]),
-    ("interface", &["hardware", "input", "presentation", "render", "ride", "view", "words"]),
+    ("interface", &["hardware", "input", "presentation", "render", "ride", "shaders", "view", "words"]),
     ("probe", &["physics", "ride"]),
     ("walls", &["physics", "render", "room", "shaders", "view"]),
     ("measure", &["exact_reference", "input", "physics", "render", "ride", "scene", "trace", "view"]),

@@ -21,4 +21,6 @@ pub use adaptation::{Adaptation, Seen};
 pub use developer::{Accumulator, DevelopedPart, Developer, LINEAR_FORMAT, copy, encoded, encodes, resample};
 pub use development::{Development, Exposure, Gamut, Tone};
 pub use enlarge::Enlarger;
-pub use passes::{Pass, READ, UNFILTERED, UNIFORM, clear, contents};
+pub use passes::{
+    FILTERED, Pass, READ, UNFILTERED, UNIFORM, clear, contents, group, layout, module, over, pipeline_layout,
+};

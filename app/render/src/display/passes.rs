@@ -9,6 +9,12 @@ pub const UNFILTERED: wgpu::BindingType = wgpu::BindingType::Texture {
     view_dimension: wgpu::TextureViewDimension::D2,
     multisampled: false,
 };
+/// Binding of a texture that is sampled.
+pub const FILTERED: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Float { filterable: true },
+    view_dimension: wgpu::TextureViewDimension::D2,
+    multisampled: false,
+};
 /// Binding of a uniform buffer.
 pub const UNIFORM: wgpu::BindingType = buffer(wgpu::BufferBindingType::Uniform);
 /// Binding of a storage buffer that is read.
@@ -142,6 +148,14 @@ pub fn clear<'encoder>(
     target: &wgpu::TextureView,
 ) -> wgpu::RenderPass<'encoder> {
     begin(encoder, target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT))
+}
+
+/// Begins drawing over what a target holds.
+pub fn over<'encoder>(
+    encoder: &'encoder mut wgpu::CommandEncoder,
+    target: &wgpu::TextureView,
+) -> wgpu::RenderPass<'encoder> {
+    begin(encoder, target, wgpu::LoadOp::Load)
 }
 
 fn begin<'encoder>(
