@@ -1,6 +1,7 @@
 //! Controls of the menu. None can be made without a phrase that says what it is for, shown while the pointer rests on
 //! it.
 
+use egui::emath::format_with_decimals_in_range;
 use egui::{Button, Response, Slider, Ui};
 use words::{Language, Phrase};
 
@@ -38,12 +39,16 @@ impl<'a> Controls<'a> {
 
     /// One of several choices whose label is a name. True if it was pressed.
     pub fn named_choice(&mut self, chosen: bool, label: &str, purpose: Phrase) -> bool {
+        let label = self.language.decimals(label);
         let response = self.ui.add(Button::selectable(chosen, label).frame_when_inactive(true));
         self.explained(response, purpose).clicked()
     }
 
-    /// Slider. True if it was moved.
+    /// Slider, with its number as it is written in this language. True if it was moved.
     pub fn slider(&mut self, slider: Slider<'_>, purpose: Phrase) -> bool {
+        let language = self.language;
+        let written = move |number: f64, decimals| language.decimals(&format_with_decimals_in_range(number, decimals));
+        let slider = slider.custom_formatter(written).custom_parser(move |text| language.number(text));
         let response = self.ui.add(slider);
         self.explained(response, purpose).changed()
     }

@@ -153,3 +153,29 @@ fn fingerprint(shapes: &[egui::ClippedPrimitive]) -> u64 {
     }
     hasher.finish()
 }
+
+#[cfg(test)]
+mod tests {
+    //! Law: a button on a sheet is pressed once it is released, however long it was held before.
+
+    use super::*;
+
+    #[test]
+    fn a_button_is_pressed_however_long_it_is_held() {
+        let gpu = Gpu::new().unwrap();
+        for held_s in [0.1, 30.0] {
+            let mut sheet = DrawnSheet::new(&gpu, [200.0, 100.0], 1.0);
+            let mut presses = 0;
+            let mut show = |sheet: &mut DrawnSheet, now_s: f64, pointer: SheetPointer| {
+                sheet.draw(&gpu, now_s, (pointer, &[]), |ui| presses += u32::from(ui.button("go").clicked()));
+            };
+            show(&mut sheet, 0.0, SheetPointer::default());
+            let place = sheet.controls().first().copied();
+            assert!(place.is_some(), "the button has no place");
+            for (now_s, pressed) in [(0.1, false), (0.2, true), (0.2 + held_s, true), (0.3 + held_s, false)] {
+                show(&mut sheet, now_s, SheetPointer { place, pressed });
+            }
+            assert_eq!(presses, 1, "held for {held_s} s");
+        }
+    }
+}

@@ -195,10 +195,12 @@ impl Painter {
     }
 }
 
-/// Layouts of an interface: dark, without shadows, which would be drawn under whatever they hide.
+/// Layouts of an interface: dark, without shadows, which would be drawn under whatever they hide. However long a
+/// button is held before it is released, it is pressed.
 pub fn layouts() -> egui::Context {
     let context = egui::Context::default();
     context.set_theme(egui::Theme::Dark);
+    context.options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
     context.all_styles_mut(|style| {
         style.visuals.window_shadow = Shadow::NONE;
         style.visuals.popup_shadow = Shadow::NONE;

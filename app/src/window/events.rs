@@ -78,6 +78,7 @@ impl Open {
                 }
                 if button == winit::event::MouseButton::Left {
                     self.mouse_pressed = pressed;
+                    self.mouse_clicked |= pressed;
                 }
                 let button = match button {
                     winit::event::MouseButton::Left => Some(MouseButton::Left),

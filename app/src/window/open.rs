@@ -59,6 +59,8 @@ pub struct Open {
     /// Window and pixel of the mouse, and true while its left button is held.
     pub(super) pointed: Option<(usize, DVec2)>,
     pub(super) mouse_pressed: bool,
+    /// True if the left button was pressed since the picture drawn last.
+    pub(super) mouse_clicked: bool,
     /// Keys of the menu, pressed by actions since the last picture.
     pub(super) menu_keys: Vec<egui::Key>,
     /// True after a press of the enter key, which the panels take by themselves.
@@ -214,6 +216,7 @@ impl Open {
             room_interface,
             pointed: None,
             mouse_pressed: false,
+            mouse_clicked: false,
             menu_keys: Vec::new(),
             entered: false,
             tours: tours::built_in_plans(),

@@ -170,9 +170,11 @@ impl Open {
         let wand = frame.and_then(|frame| frame.controls.wand.as_deref());
         let buttons = self.room.head.as_ref().and_then(|head| head.wand.as_ref()).map(|wand| &wand.actions);
         let wand = wand.zip(buttons).and_then(|(wand, buttons)| cabin::of_wand(wand, buttons));
+        // A press that was over before this picture counts for it.
+        let pressed = std::mem::take(&mut self.mouse_clicked) || self.mouse_pressed;
         let mouse = || {
             let (window, pixel) = self.pointed?;
-            cabin::of_mouse(&walls.display, window, pixel, self.mouse_pressed)
+            cabin::of_mouse(&walls.display, window, pixel, pressed)
         };
         let (sheets, actions) = interface.draw(&self.gpu, shown, &self.guide, &mut self.page, wand.or_else(mouse));
         walls.sheets = sheets;

@@ -76,6 +76,12 @@ impl Language {
         of_digits.iter().enumerate().map(written).collect()
     }
 
+    /// Number whose decimals are written as in this language, or as in English.
+    pub fn number(self, text: &str) -> Option<f64> {
+        let text = if self == Self::English { text.to_owned() } else { text.replace(',', ".") };
+        text.trim().parse().ok().filter(|number: &f64| number.is_finite())
+    }
+
     /// Text of a phrase, with its numbers in braces as they are.
     pub fn text(self, phrase: Phrase) -> &'static str {
         match self {
@@ -132,6 +138,9 @@ mod tests {
         {
             assert_eq!(Language::German.decimals(english), german);
             assert_eq!(Language::English.decimals(english), english);
+        }
+        for (text, english, german) in [("1.5", Some(1.5), Some(1.5)), (" 0,25", None, Some(0.25)), ("c", None, None)] {
+            assert_eq!([Language::English, Language::German].map(|language| language.number(text)), [english, german]);
         }
     }
 
