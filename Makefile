@@ -2,10 +2,10 @@
 
 CARGO ?= cargo
 
-.PHONY: help ride test bench fuzz docs clean
+.PHONY: help ride test test-headset bench fuzz docs clean
 
 help: ## What can be made
-	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /make \1\t/'
+	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /make \1\t/'
 
 ride: ## Install what the system lacks, build, and ride; without a display, film 10 s of it into ride.mp4
 	@scripts/install ride
@@ -14,6 +14,11 @@ ride: ## Install what the system lacks, build, and ride; without a display, film
 test: ## Install what the tests need, and run every test
 	@scripts/install test
 	$(CARGO) test --release --workspace
+
+test-headset: ## Try rides with a headset on a real OpenXR runtime; makes that once (190 MB to load, 1 GB on the disk)
+	@scripts/install test
+	scripts/monado root
+	$(CARGO) --config 'target."cfg(unix)".runner = ["$(CURDIR)/scripts/monado", "run"]' test --release -p rapidity --test headset
 
 bench: ## Measure: kernel against copy bandwidth, integrators, frames
 	@scripts/install test

@@ -33,6 +33,7 @@ use crate::keyboard::KeyboardDecoder;
 use crate::look::decoder::LookDecoder;
 use crate::look::free_look::FreeLook;
 use crate::opentrack::OpentrackDecoder;
+use crate::openxr::OpenxrDecoder;
 use crate::sample::{Sample, SampleSource, Signal};
 use crate::settings::ActionDecoder;
 use crate::spacemouse::SpaceMouseDecoder;
@@ -57,6 +58,7 @@ pub struct Desk {
     vrpn: VrpnDecoder,
     dtrack: DtrackDecoder,
     opentrack: OpentrackDecoder,
+    openxr: OpenxrDecoder,
     mouse: MouseDecoder,
     look: LookDecoder,
     /// Vehicle that is ridden, on which the meaning of the gamepad's second stick depends.
@@ -93,6 +95,7 @@ impl Desk {
             vrpn: VrpnDecoder::with_wand(device, wand),
             dtrack: config.head.as_ref().map_or_else(DtrackDecoder::default, DtrackDecoder::of_head),
             opentrack: OpentrackDecoder::new(config.head.as_ref().map_or(&[], |head| &head.flip)),
+            openxr: config.head.as_ref().map_or_else(OpenxrDecoder::default, OpenxrDecoder::of_head),
             mouse: MouseDecoder::new(home),
             look: LookDecoder::default(),
             vehicle: VehicleKind::default(),
@@ -132,6 +135,7 @@ impl Desk {
             SampleSource::Vrpn => &mut self.vrpn,
             SampleSource::Dtrack => &mut self.dtrack,
             SampleSource::Opentrack => &mut self.opentrack,
+            SampleSource::Openxr => &mut self.openxr,
             SampleSource::Mouse if self.mouse_looks() => &mut self.look,
             SampleSource::Mouse => &mut self.mouse,
             SampleSource::Settings => &mut self.settings,
@@ -179,7 +183,7 @@ impl Desk {
             SampleSource::Gamepad => self.by_hand |= pushed(&self.gamepad.deflection()),
             SampleSource::SpaceMouse => self.by_hand |= pushed(&self.space_mouse.deflection(sample.at)),
             SampleSource::Spacenavd => self.by_hand |= pushed(&self.spacenavd.deflection()),
-            SampleSource::Vrpn | SampleSource::Dtrack if self.config.all_act => {
+            SampleSource::Vrpn | SampleSource::Dtrack | SampleSource::Openxr if self.config.all_act => {
                 self.by_hand |= self.wand.as_ref().is_some_and(|wand| work::steer(&wand.state(sample.at)) != 0.0);
             }
             _ => {}
@@ -219,6 +223,7 @@ impl Desk {
             SampleSource::Vrpn => (self.vrpn.take_poses(), self.vrpn.take_wand_signals()),
             SampleSource::Dtrack => (self.dtrack.take_poses(), self.dtrack.take_wand_signals()),
             SampleSource::Opentrack => (self.opentrack.take_poses(), Vec::new()),
+            SampleSource::Openxr => (self.openxr.take_poses(), self.openxr.take_wand_signals()),
             _ => return,
         };
         let Some(head) = self.head.as_mut().filter(|head| head.config().url.source() == sample.source) else {
@@ -273,6 +278,7 @@ impl Desk {
             SampleSource::Vrpn => self.vrpn.heard(),
             SampleSource::Dtrack => self.dtrack.heard(),
             SampleSource::Opentrack => self.opentrack.heard(),
+            SampleSource::Openxr => self.openxr.heard(),
             _ => &[],
         }
     }
@@ -369,6 +375,7 @@ impl Desk {
             SampleSource::Vrpn => self.vrpn.faults(),
             SampleSource::Dtrack => self.dtrack.faults(),
             SampleSource::Opentrack => self.opentrack.faults(),
+            SampleSource::Openxr => self.openxr.faults(),
             SampleSource::Mouse if self.mouse_looks() => self.look.faults(),
             SampleSource::Mouse => self.mouse.faults(),
             SampleSource::Settings => self.settings.faults(),

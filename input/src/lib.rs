@@ -41,6 +41,7 @@ pub mod keyboard;
 pub mod line;
 mod look;
 pub mod opentrack;
+pub mod openxr;
 pub mod pulses;
 mod ramp;
 pub mod recording;

@@ -35,6 +35,8 @@ pub enum SampleSource {
     Dtrack,
     /// A head that opentrack follows: [`crate::opentrack`].
     Opentrack,
+    /// A headset through an OpenXR runtime: [`crate::openxr`].
+    Openxr,
     /// The mouse in the window: it moves the head ([`crate::head::MouseDecoder`]) or turns the look
     /// ([`crate::LookDecoder`]).
     Mouse,
@@ -44,7 +46,7 @@ pub enum SampleSource {
 
 impl SampleSource {
     /// All sources, in the order of the listing.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Keyboard,
         Self::Gamepad,
         Self::SpaceMouse,
@@ -54,6 +56,7 @@ impl SampleSource {
         Self::Vrpn,
         Self::Dtrack,
         Self::Opentrack,
+        Self::Openxr,
         Self::Mouse,
         Self::Settings,
     ];
@@ -70,6 +73,7 @@ impl SampleSource {
             Self::Vrpn => "vrpn",
             Self::Dtrack => "dtrack",
             Self::Opentrack => "opentrack",
+            Self::Openxr => "openxr",
             Self::Mouse => "mouse",
             Self::Settings => "settings",
         }

@@ -224,7 +224,8 @@ pub struct DeviceOptions {
     #[arg(long)]
     pub spacemouse: bool,
     /// Tracker of the head: opentrack://:4242 at a desk (opentrack's output "UDP over network"), vrpn://HOST/DEVICE,
-    /// dtrack://:5000 (or dtrack://GROUP:5000), or mouse, whose drags turn and move the head. Its turn turns the
+    /// dtrack://:5000 (or dtrack://GROUP:5000), openxr:// (the headset of this machine's OpenXR runtime), or mouse, whose
+    /// drags turn and move the head. Its turn turns the
     /// picture of the displays desk, the usual one with opentrack, and window. U makes the head's present pose the
     /// straight one.
     #[arg(long, value_name = "URL")]

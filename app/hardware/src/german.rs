@@ -4,6 +4,7 @@
 use input::SampleSource;
 use input::devices::{DeviceFault, DeviceNote, TrainerError, TrainerRequest, UDEV_RULE, short_numbers};
 use input::head::{HeardKind, HeardSensor};
+use input::openxr::XrFault;
 use input::trainer::ControlRefusal;
 use input::trainer::wire::RequestRefusal;
 
@@ -19,6 +20,7 @@ pub fn source(source: SampleSource) -> &'static str {
         SampleSource::Vrpn => "VRPN",
         SampleSource::Dtrack => "DTrack",
         SampleSource::Opentrack => "opentrack",
+        SampleSource::Openxr => "Headset",
         SampleSource::Mouse => "Maus",
         SampleSource::Settings => "Bedienung",
     }
@@ -103,6 +105,25 @@ pub fn fault(reason: &DeviceFault) -> String {
             format!("seit {seconds} s stumm; dieses Gerät hat er nicht, aber {others}")
         }
         DeviceFault::Trainer(error) => trainer(error),
+        DeviceFault::Headset(why) => headset(why),
+    }
+}
+
+/// Sentence on a headset that cannot be used.
+fn headset(fault: &XrFault) -> String {
+    match fault {
+        XrFault::NoLoader(why) => format!(
+            "OpenXR ist nicht installiert ({why}): unter Debian oder Ubuntu `sudo apt-get install libopenxr-loader1`"
+        ),
+        XrFault::NoRuntime(why) => {
+            format!("keine OpenXR-Laufzeit antwortet ({why}): zuerst die des Headsets starten (SteamVR, Monado, WiVRn)")
+        }
+        XrFault::Lacks(runtime, extension) => {
+            format!("{runtime} fehlt {extension}: eine andere oder neuere OpenXR-Laufzeit verwenden")
+        }
+        XrFault::NoHeadset(runtime) => format!("{runtime} sieht kein Headset: anschließen und einschalten"),
+        XrFault::Refused(runtime, what, why) => format!("{runtime} verweigert {what}: {why}"),
+        XrFault::Ended(runtime) => format!("{runtime} hat die Sitzung beendet"),
     }
 }
 

@@ -2,7 +2,8 @@
 
 use crate::set_up::{SetUp, SetUpError};
 use input::head::{HEAD_EDITION, Recentring, TrackingMode, VelocityFilter};
-use input::{HeadConfig, TrackerUrl};
+use input::openxr::{RIGHT_HAND, TRIGGER_AXIS};
+use input::{HeadConfig, TrackerUrl, WandConfig};
 use room::Display;
 use thiserror::Error;
 
@@ -63,6 +64,11 @@ fn has_one_head(tracker: &TrackerUrl) -> bool {
     matches!(tracker, TrackerUrl::Opentrack { .. } | TrackerUrl::Mouse)
 }
 
+/// Wand that is a headset's right controller.
+fn controller() -> WandConfig {
+    WandConfig { sensor: RIGHT_HAND, trigger: Some(TRIGGER_AXIS), ..WandConfig::default() }
+}
+
 /// The settings, with the usual values of this display and this tracker for each key that is not `given`.
 fn with_usual(mut config: HeadConfig, display: Option<&Display>, given: impl Fn(&str) -> bool) -> HeadConfig {
     let is_opentrack = matches!(config.url, TrackerUrl::Opentrack { .. });
@@ -72,6 +78,9 @@ fn with_usual(mut config: HeadConfig, display: Option<&Display>, given: impl Fn(
     if !given("velocity") && is_opentrack {
         // Cameras of desks are noisier than trackers of rooms.
         config.velocity = VelocityFilter::LeastSquares { window_s: OPENTRACK_WINDOW_S };
+    }
+    if !given("wand") && config.url == TrackerUrl::Openxr {
+        config.wand = Some(controller());
     }
     let Some(display) = display else { return config };
     if !given("home") {
@@ -126,6 +135,16 @@ mod tests {
         }
         assert_eq!(config_of(&Display::built_in("cave4").unwrap(), None).unwrap(), None);
         assert_eq!(config_of(&display("url = \"mouse\"\nmode = \"none\""), None).unwrap(), None);
+    }
+
+    #[test]
+    fn the_right_controller_of_a_headset_is_the_wand_unless_the_display_says_which() {
+        let wand = |display: &Display| config_of(display, Some(&"openxr://".parse().unwrap())).unwrap().unwrap().wand;
+        let usual = wand(&Display::built_in("cave4").unwrap()).unwrap();
+        assert_eq!((usual.sensor, usual.trigger), (2, Some(2)));
+        let left = wand(&display("url = \"openxr://\"\n[tracker.wand]\nsensor = 1")).unwrap();
+        assert_eq!((left.sensor, left.trigger), (1, None));
+        assert_eq!(config_of(&display("url = \"vrpn://lab/Head\""), None).unwrap().unwrap().wand, None);
     }
 
     #[test]

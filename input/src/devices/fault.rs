@@ -8,6 +8,7 @@ use std::io;
 use thiserror::Error;
 
 use super::trainer_error::TrainerError;
+use crate::openxr::XrFault;
 use crate::trainer::control::ControlRefusal;
 
 /// Rule of udev that makes a SpaceMouse readable, and the file for it.
@@ -127,6 +128,9 @@ pub enum DeviceFault {
     /// A trainer that cannot be used.
     #[error("{0}")]
     Trainer(TrainerError),
+    /// A headset that cannot be used.
+    #[error("{0}")]
+    Headset(XrFault),
 }
 
 impl From<io::Error> for DeviceFault {
@@ -136,6 +140,12 @@ impl From<io::Error> for DeviceFault {
             Some(fault) => fault.clone(),
             None => Self::System(error.to_string()),
         }
+    }
+}
+
+impl From<XrFault> for DeviceFault {
+    fn from(fault: XrFault) -> Self {
+        Self::Headset(fault)
     }
 }
 

@@ -11,6 +11,7 @@ use super::config::DevicesConfig;
 use super::dtrack::DtrackPort;
 use super::feed::{DeviceFeed, DevicePort, DeviceStatus, SharedNews, status};
 use super::opentrack::OpentrackPort;
+use super::openxr::OpenxrPort;
 use super::puck::PuckPort;
 use super::serial::{BrakeSlot, SerialPort};
 use super::trainer::TrainerPort;
@@ -104,6 +105,9 @@ impl Devices {
             }
             Some(TrackerUrl::Opentrack { address, port }) => {
                 devices.start(SampleSource::Opentrack, OpentrackPort::new(*address, *port), TRACKER_QUEUE, &stopped)?;
+            }
+            Some(TrackerUrl::Openxr) => {
+                devices.start(SampleSource::Openxr, OpenxrPort, TRACKER_QUEUE, &stopped)?;
             }
             Some(TrackerUrl::Mouse) | None => {}
         }

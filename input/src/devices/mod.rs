@@ -19,6 +19,7 @@ mod flood_gate;
 mod lanes;
 mod multicast;
 mod opentrack;
+mod openxr;
 #[cfg(target_os = "linux")]
 mod pad;
 mod plugged;

@@ -306,8 +306,13 @@ impl HeadConfig {
         }
         if let Some(wand) = &self.wand {
             let has_names = matches!(self.url, TrackerUrl::Vrpn { .. });
-            if !has_names && !is_dtrack {
-                let expected = "no wand but with a VRPN server or DTrack";
+            let is_headset = self.url == TrackerUrl::Openxr;
+            if is_headset && !matches!(wand.sensor, 1 | 2) {
+                let expected = "1, the left hand, or 2, the right one, with url = \"openxr://\"";
+                return Err(ConfigError { key: "tracker.wand.sensor", value: wand.sensor.to_string(), expected });
+            }
+            if !has_names && !is_dtrack && !is_headset {
+                let expected = "no wand but with a VRPN server, DTrack or OpenXR";
                 return Err(ConfigError { key: "tracker.wand", value: format!("that of {}", self.url), expected });
             }
             wand.check(has_names)?;

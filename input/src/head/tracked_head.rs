@@ -275,7 +275,7 @@ impl TrackedHead {
 /// Unit of the lengths that such a tracker sends, which its decoder has turned into metres.
 fn usual_unit(url: &TrackerUrl) -> LengthUnit {
     let name = match url {
-        TrackerUrl::Vrpn { .. } | TrackerUrl::Mouse => "m",
+        TrackerUrl::Vrpn { .. } | TrackerUrl::Openxr | TrackerUrl::Mouse => "m",
         TrackerUrl::Dtrack { .. } => "mm",
         TrackerUrl::Opentrack { .. } => "cm",
     };

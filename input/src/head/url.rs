@@ -1,5 +1,5 @@
 //! Address of a tracker as one text: `vrpn://HOST[:PORT]/DEVICE` or, as VRPN's own tools say it,
-//! `DEVICE@HOST[:PORT]`; `dtrack://[ADDRESS][:PORT]`; `opentrack://[ADDRESS][:PORT]`; `mouse`.
+//! `DEVICE@HOST[:PORT]`; `dtrack://[ADDRESS][:PORT]`; `opentrack://[ADDRESS][:PORT]`; `openxr://`; `mouse`.
 
 use std::fmt;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
@@ -40,6 +40,8 @@ pub enum TrackerUrl {
         /// Port that opentrack sends to.
         port: u16,
     },
+    /// The headset of this machine's OpenXR runtime.
+    Openxr,
     /// Mouse in the window, which moves the head without a tracker.
     Mouse,
 }
@@ -49,9 +51,12 @@ pub enum TrackerUrl {
 pub enum TrackerUrlError {
     /// A text of unknown form.
     #[error(
-        "{0:?} is no tracker: expected vrpn://HOST/DEVICE or DEVICE@HOST, dtrack://ADDRESS:PORT, opentrack://:PORT or mouse, as in vrpn://192.168.0.10/Head"
+        "{0:?} is no tracker: expected vrpn://HOST/DEVICE or DEVICE@HOST, dtrack://ADDRESS:PORT, opentrack://:PORT, openxr:// or mouse, as in vrpn://192.168.0.10/Head"
     )]
     Unknown(String),
+    /// An address of a headset, which has no parts.
+    #[error("{0:?} names a place: expected openxr:// alone, which is the headset of this machine")]
+    Place(String),
     /// An address without a host.
     #[error("{0:?} names no host: expected vrpn://HOST/DEVICE, as in vrpn://192.168.0.10/Head")]
     Host(String),
@@ -85,6 +90,7 @@ impl TrackerUrl {
             Self::Vrpn { .. } => SampleSource::Vrpn,
             Self::Dtrack { .. } => SampleSource::Dtrack,
             Self::Opentrack { .. } => SampleSource::Opentrack,
+            Self::Openxr => SampleSource::Openxr,
             Self::Mouse => SampleSource::Mouse,
         }
     }
@@ -118,6 +124,8 @@ impl FromStr for TrackerUrl {
                 let (address, port) = address_and_port(url, rest, opentrack::PORT)?;
                 Ok(Self::Opentrack { address, port })
             }
+            Some(("openxr", "")) => Ok(Self::Openxr),
+            Some(("openxr", _)) => Err(TrackerUrlError::Place(url.to_owned())),
             _ => Err(TrackerUrlError::Unknown(url.to_owned())),
         }
     }
@@ -173,6 +181,7 @@ impl fmt::Display for TrackerUrl {
             Self::Opentrack { address, port } => {
                 write!(formatter, "opentrack://{}", SocketAddr::new(*address, *port))
             }
+            Self::Openxr => formatter.write_str("openxr://"),
             Self::Mouse => formatter.write_str("mouse"),
         }
     }
@@ -218,6 +227,7 @@ mod tests {
             ("opentrack://:4242", "opentrack://0.0.0.0:4242"),
             ("opentrack://127.0.0.1:4243/", "opentrack://127.0.0.1:4243"),
             ("opentrack://[::1]", "opentrack://[::1]:4242"),
+            ("openxr://", "openxr://"),
             (" mouse ", "mouse"),
         ] {
             let url: TrackerUrl = text.parse().unwrap();
@@ -250,6 +260,7 @@ mod tests {
             ("dtrack://:port", "is no port"),
             ("opentrack://desk:4242", "\"desk\" in"),
             ("opentrack://:0", "is no port"),
+            ("openxr://headset", "expected openxr:// alone"),
         ] {
             let error = text.parse::<TrackerUrl>().unwrap_err().to_string();
             assert!(error.contains(expected), "{text}: {error}");

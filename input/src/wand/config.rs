@@ -28,7 +28,7 @@ use crate::vrpn::wire::LONGEST_NAME;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct WandConfig {
-    /// Number of the sensor, with VRPN, or of the flystick, with DTrack.
+    /// Number of the sensor, with VRPN, of the flystick, with DTrack, or of the hand, with OpenXR: 1 left, 2 right.
     pub sensor: i32,
     /// VRPN device of the pose. `None` for the head's device.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -92,7 +92,7 @@ impl WandConfig {
         for (key, name) in names {
             let Some(name) = name else { continue };
             let expected = if !has_names {
-                "nothing with DTrack, whose flysticks have numbers: `sensor`"
+                "nothing but with VRPN; elsewhere wands have numbers: `sensor`"
             } else if name.is_empty() || name.len() >= LONGEST_NAME {
                 "the name of a device of the server, of 1 to 99 letters"
             } else {

@@ -44,7 +44,7 @@ impl TrackedWand {
             wand: None,
             ..head.clone()
         })?;
-        let repeats = matches!(head.url, TrackerUrl::Dtrack { .. });
+        let repeats = matches!(head.url, TrackerUrl::Dtrack { .. } | TrackerUrl::Openxr);
         Ok(Some(Self { config, hand, buttons: HeldButtons::default(), axes: Vec::new(), held_at: 0, repeats }))
     }
 

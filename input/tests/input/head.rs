@@ -4,8 +4,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use input::head::{FlipAxis, Recentring, Tracking, VelocityFilter};
+use input::openxr::{XrPose, XrReport};
 use input::recording::{ControlsRecord, FrameRecord, Recorder, Recording, RecordingEntry, RideHeader};
 use input::vrpn::wire::{COOKIE, DESCRIBES_SENDER, DESCRIBES_TYPE, VrpnMessage, description};
 use input::{
@@ -14,9 +15,9 @@ use input::{
 };
 use proptest::prelude::*;
 
-const URLS: [&str; 4] = ["vrpn://tracker/Head", "dtrack://:5000", "opentrack://", "mouse"];
-const SOURCES: [SampleSource; 4] =
-    [SampleSource::Vrpn, SampleSource::Dtrack, SampleSource::Opentrack, SampleSource::Mouse];
+const URLS: [&str; 5] = ["vrpn://tracker/Head", "dtrack://:5000", "opentrack://", "openxr://", "mouse"];
+const SOURCES: [SampleSource; 5] =
+    [SampleSource::Vrpn, SampleSource::Dtrack, SampleSource::Opentrack, SampleSource::Openxr, SampleSource::Mouse];
 
 fn filters() -> [VelocityFilter; 4] {
     [VelocityFilter::default(), VelocityFilter::least_squares(), VelocityFilter::one_euro(), VelocityFilter::Off]
@@ -137,6 +138,16 @@ fn walk(source: SampleSource) -> Vec<Sample> {
             let numbers = [100.0 * sway(frame), 3.0, -20.0, 0.1 * f64::from(frame), 7.0, -3.0];
             let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
             Sample::bytes(u64::from(frame) * step, source, bytes)
+        })),
+        SampleSource::Openxr => samples.extend((0..300_u32).map(|frame| {
+            let angle = 0.01 * f64::from(frame);
+            let head = XrPose {
+                position_m: Some([sway(frame) as f32, 1.7, -0.2]),
+                orientation: Some(DQuat::from_rotation_y(angle).to_array().map(|part| part as f32)),
+                ..XrPose::default()
+            };
+            let report = XrReport { time_ns: i64::from(frame) * 11_111_111, head, ..XrReport::default() };
+            Sample::bytes(u64::from(frame) * step, source, report.to_bytes())
         })),
         _ => {
             samples.push(Sample::mouse(0, MouseEvent::Button { button: MouseButton::Left, pressed: true }));

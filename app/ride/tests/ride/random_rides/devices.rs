@@ -1,7 +1,9 @@
 //! Devices gone mad: plausible bytes of every device, damaged ones, and bytes of no sense.
 
+use glam::{DQuat, EulerRot};
 use input::dtrack::LONGEST_DATAGRAM;
 use input::gamepad::GamepadItem;
+use input::openxr::{XrHand, XrPose, XrReport};
 use input::trainer::wire as trainer;
 use input::vrpn::wire as vrpn;
 use input::{KeyboardKey, MouseButton, MouseEvent, Nanos, Sample, SampleSource};
@@ -112,8 +114,31 @@ impl MadDevices<'_> {
             SampleSource::Vrpn => self.vrpn(at),
             SampleSource::Dtrack => self.dtrack(at),
             SampleSource::Opentrack => (0..6).flat_map(|_| self.number(60.0).to_le_bytes()).collect(),
+            SampleSource::Openxr => self.headset().to_bytes(),
             SampleSource::Mouse => self.mouse(),
             SampleSource::Settings => ACTIONS[self.below(ACTIONS.len())].as_bytes().to_vec(),
+        }
+    }
+
+    fn headset(&mut self) -> XrReport {
+        let poses = [self.headset_pose(), self.headset_pose(), self.headset_pose()];
+        let hands = [poses[1], poses[2]].map(|pose| XrHand {
+            pose,
+            buttons: if self.below(4) == 0 { self.below(16) as u32 } else { 0 },
+            axes: [0; 4].map(|_| self.number(1.0) as f32),
+        });
+        XrReport { time_ns: self.random.random_range(0..1 << 40), head: poses[0], hands }
+    }
+
+    fn headset_pose(&mut self) -> XrPose {
+        let [place, moves, turns] = [2.0, 3.0, 6.0].map(|size| [0; 3].map(|_| self.number(size) as f32));
+        let turn = DQuat::from_euler(EulerRot::YXZ, self.number(3.0), self.number(1.5), self.number(0.5));
+        let [turned, placed, moved, turning] = [0; 4].map(|_| self.below(8) > 0);
+        XrPose {
+            position_m: placed.then_some(place),
+            orientation: turned.then_some(turn.to_array().map(|part| part as f32)),
+            velocity_m_s: moved.then_some(moves),
+            turning_rad_s: turning.then_some(turns),
         }
     }
 

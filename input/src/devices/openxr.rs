@@ -1,0 +1,63 @@
+//! Headset as a tracker: head and hands of an OpenXR session that shows no pictures.
+
+use std::io;
+use std::time::{Duration, Instant};
+
+use super::fault::DeviceFault;
+use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
+use crate::openxr::{XrFault, XrHands, XrRuntime, XrState, XrUse};
+use crate::sample::SampleSource;
+
+/// Time between two reports: more often than any headset measures, as often as any shows.
+const PERIOD: Duration = Duration::from_millis(8);
+/// Time for which a session that does not run is left alone.
+const REST: Duration = Duration::from_millis(50);
+
+/// Headset of this machine's runtime.
+pub(super) struct OpenxrPort;
+
+impl DevicePort for OpenxrPort {
+    fn open(&mut self) -> Result<(OpenedDevice, Box<dyn DeviceConnection>), DeviceFault> {
+        let runtime = XrRuntime::new(XrUse::Tracker)?;
+        let session = runtime.headless()?;
+        let hands = XrHands::new(&runtime, &session)?;
+        let place =
+            OpenedDevice { source: SampleSource::Openxr, name: runtime.headset(), path: runtime.name().to_owned() };
+        let (state, next) = (XrState::default(), Instant::now());
+        Ok((place, Box::new(HeadsetLink { hands, session, runtime, state, next })))
+    }
+}
+
+/// Session with the headset. Fields are dropped in their order, the runtime last.
+struct HeadsetLink {
+    hands: XrHands,
+    session: openxr::Session<openxr::Headless>,
+    runtime: XrRuntime,
+    state: XrState,
+    /// Time of the next report.
+    next: Instant,
+}
+
+impl HeadsetLink {
+    fn report(&mut self) -> Result<Option<Vec<u8>>, XrFault> {
+        self.runtime.follow(&self.session, &mut self.state)?;
+        if self.state == XrState::Idle {
+            std::thread::sleep(REST);
+            return Ok(None);
+        }
+        std::thread::sleep(self.next.saturating_duration_since(Instant::now()));
+        self.next = Instant::now() + PERIOD;
+        let now = self.runtime.instance.now().map_err(self.runtime.refused("the time"))?;
+        self.hands.report(&self.runtime, &self.session, now).map(|report| Some(report.to_bytes()))
+    }
+}
+
+impl DeviceConnection for HeadsetLink {
+    fn read(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
+        match self.report() {
+            Ok(report) => bytes.extend(report.into_iter().flatten()),
+            Err(fault) => return Err(DeviceFault::from(fault).io(io::ErrorKind::Other)),
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,194 @@
+//! Runtime of a headset: loaded, asked what it can, and followed through the states of a session.
+
+use openxr as xr;
+use thiserror::Error;
+
+/// Reason why a headset cannot be used. The words of the runtime stay as it says them.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum XrFault {
+    /// A machine without the OpenXR loader, and the system's reason.
+    #[error("there is no OpenXR loader ({0}): on Debian or Ubuntu `sudo apt-get install libopenxr-loader1`")]
+    NoLoader(String),
+    /// A machine on which no runtime answers, and the loader's reason.
+    #[error("no OpenXR runtime answers ({0}): start that of the headset (SteamVR, Monado, WiVRn) first")]
+    NoRuntime(String),
+    /// A runtime, by its name, without an extension.
+    #[error("{0} lacks {1}, which is needed for this: use another OpenXR runtime, or a newer one")]
+    Lacks(String, &'static str),
+    /// A runtime, by its name, that sees no headset.
+    #[error("{0} sees no headset: plug it in and switch it on")]
+    NoHeadset(String),
+    /// A request that a runtime, by its name, refused, and its reason.
+    #[error("{0} refuses {1}: {2}")]
+    Refused(String, &'static str, String),
+    /// A session that a runtime, by its name, ended.
+    #[error("{0} has ended the session")]
+    Ended(String),
+}
+
+/// Runtime that answers, with its headset.
+pub struct XrRuntime {
+    /// Connection to the runtime.
+    pub instance: xr::Instance,
+    /// Headset.
+    pub system: xr::SystemId,
+    name: String,
+}
+
+/// Extensions that a session needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum XrUse {
+    /// Poses and buttons without pictures.
+    Tracker,
+    /// Pictures drawn with Vulkan.
+    Pictures,
+}
+
+impl XrRuntime {
+    /// Reaches the runtime and its headset.
+    ///
+    /// # Errors
+    /// What is missing, with what to do about it.
+    pub fn new(wanted: XrUse) -> Result<Self, XrFault> {
+        // SAFETY: the loader is the system's own library of that name, whose interface the `openxr` crate declares.
+        let entry = unsafe { xr::Entry::load(&()) }.map_err(|error| {
+            let why = std::error::Error::source(&error).map_or_else(|| error.to_string(), ToString::to_string);
+            XrFault::NoLoader(one_line(&why))
+        })?;
+        let no_runtime = |result: xr::sys::Result| XrFault::NoRuntime(one_line(&result.to_string()));
+        let there = entry.enumerate_extensions().map_err(no_runtime)?;
+        let mut extensions = xr::ExtensionSet::default();
+        extensions.ext_local_floor = there.ext_local_floor;
+        extensions.khr_convert_timespec_time = there.khr_convert_timespec_time;
+        let needed = match wanted {
+            XrUse::Tracker => {
+                extensions.mnd_headless = true;
+                [
+                    (there.mnd_headless, "XR_MND_headless"),
+                    (there.khr_convert_timespec_time, "XR_KHR_convert_timespec_time"),
+                ]
+                .to_vec()
+            }
+            XrUse::Pictures => {
+                extensions.khr_vulkan_enable2 = true;
+                extensions.khr_composition_layer_depth = there.khr_composition_layer_depth;
+                extensions.khr_visibility_mask = there.khr_visibility_mask;
+                [(there.khr_vulkan_enable2, "XR_KHR_vulkan_enable2")].to_vec()
+            }
+        };
+        if let Some((_, lacking)) = needed.into_iter().find(|(is_there, _)| !is_there) {
+            return Err(XrFault::Lacks("the OpenXR runtime".to_owned(), lacking));
+        }
+        let application = xr::ApplicationInfo {
+            application_name: "Rapidity",
+            engine_name: "Rapidity",
+            api_version: xr::Version::new(1, 0, 0),
+            ..Default::default()
+        };
+        let instance = entry.create_instance(&application, &extensions, &[], &()).map_err(no_runtime)?;
+        let name = instance.properties().map_or_else(|_| "the OpenXR runtime".to_owned(), |known| known.runtime_name);
+        let system = instance.system(xr::FormFactor::HEAD_MOUNTED_DISPLAY).map_err(|result| match result {
+            xr::sys::Result::ERROR_FORM_FACTOR_UNAVAILABLE | xr::sys::Result::ERROR_FORM_FACTOR_UNSUPPORTED => {
+                XrFault::NoHeadset(name.clone())
+            }
+            other => XrFault::Refused(name.clone(), "the headset", one_line(&other.to_string())),
+        })?;
+        Ok(Self { instance, system, name })
+    }
+
+    /// Name that the runtime gives itself.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Name of the headset.
+    pub fn headset(&self) -> String {
+        self.instance.system_properties(self.system).map_or_else(|_| "headset".to_owned(), |known| known.system_name)
+    }
+
+    /// Fault of a request that was refused. `what`: the thing that was asked for.
+    pub fn refused(&self, what: &'static str) -> impl Fn(xr::sys::Result) -> XrFault + '_ {
+        move |result| match result {
+            xr::sys::Result::ERROR_INSTANCE_LOST
+            | xr::sys::Result::ERROR_SESSION_LOST
+            | xr::sys::Result::ERROR_RUNTIME_FAILURE => XrFault::Ended(self.name.clone()),
+            other => XrFault::Refused(self.name.clone(), what, one_line(&other.to_string())),
+        }
+    }
+
+    /// Session without pictures.
+    ///
+    /// # Errors
+    /// A runtime that refuses.
+    pub fn headless(&self) -> Result<xr::Session<xr::Headless>, XrFault> {
+        // SAFETY: a headless session uses no graphics device, whose validity is all that the call demands.
+        let made =
+            unsafe { self.instance.create_session::<xr::Headless>(self.system, &xr::headless::SessionCreateInfo {}) };
+        made.map(|(session, _, _)| session).map_err(self.refused("a session without pictures"))
+    }
+
+    /// Stage of a session: the floor of the room; with runtimes that know none, the floor below the head's first
+    /// place, or that place itself.
+    ///
+    /// # Errors
+    /// A runtime that refuses all.
+    pub fn stage<G>(&self, session: &xr::Session<G>) -> Result<xr::Space, XrFault> {
+        use xr::ReferenceSpaceType as Kind;
+        let known = session.enumerate_reference_spaces().map_err(self.refused("its spaces"))?;
+        let kinds = [Kind::STAGE, Kind::LOCAL_FLOOR, Kind::LOCAL];
+        let kind = kinds.into_iter().find(|kind| known.contains(kind)).unwrap_or(Kind::LOCAL);
+        session.create_reference_space(kind, xr::Posef::IDENTITY).map_err(self.refused("a space"))
+    }
+
+    /// Takes the events since the last call: begins and ends the session as the runtime demands.
+    ///
+    /// # Errors
+    /// A session that has ended for good.
+    pub fn follow<G>(&self, session: &xr::Session<G>, state: &mut XrState) -> Result<(), XrFault> {
+        let mut storage = xr::EventDataBuffer::new();
+        while let Some(event) = self.instance.poll_event(&mut storage).map_err(self.refused("its events"))? {
+            let ended = || XrFault::Ended(self.name.clone());
+            match event {
+                xr::Event::SessionStateChanged(change) => match change.state() {
+                    xr::SessionState::READY => {
+                        session
+                            .begin(xr::ViewConfigurationType::PRIMARY_STEREO)
+                            .map_err(self.refused("to begin the session"))?;
+                        *state = XrState::Running { focused: false };
+                    }
+                    xr::SessionState::STOPPING => {
+                        session.end().map_err(self.refused("to end the session"))?;
+                        *state = XrState::Idle;
+                    }
+                    xr::SessionState::FOCUSED => *state = XrState::Running { focused: true },
+                    xr::SessionState::VISIBLE | xr::SessionState::SYNCHRONIZED => {
+                        *state = XrState::Running { focused: false };
+                    }
+                    xr::SessionState::LOSS_PENDING | xr::SessionState::EXITING => return Err(ended()),
+                    _ => {}
+                },
+                xr::Event::InstanceLossPending(_) => return Err(ended()),
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+/// State of a session.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum XrState {
+    /// No frames and no input: the headset rests, or the runtime has not begun.
+    #[default]
+    Idle,
+    /// The session runs.
+    Running {
+        /// True if controllers and keys of the headset are this program's.
+        focused: bool,
+    },
+}
+
+/// A reason of several lines, joined into one.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
