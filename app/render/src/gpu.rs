@@ -46,6 +46,9 @@ pub struct Gpu {
 }
 
 impl Gpu {
+    /// Features that are used where a device has them.
+    pub const WANTED: wgpu::Features = wgpu::Features::FLOAT32_BLENDABLE.union(wgpu::Features::FLOAT32_FILTERABLE);
+
     /// Opens the best device there is, for drawing without a window.
     ///
     /// # Errors
@@ -66,15 +69,19 @@ impl Gpu {
         };
         let adapter = pollster::block_on(instance.request_adapter(&options))
             .map_err(|error| GpuError::NoAdapter(error.to_string()))?;
-        let wanted = wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::FLOAT32_FILTERABLE;
         let device_descriptor = wgpu::DeviceDescriptor {
             label: Some("rapidity"),
-            required_features: adapter.features() & wanted,
+            required_features: adapter.features() & Self::WANTED,
             required_limits: adapter.limits(),
             ..Default::default()
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&device_descriptor))
             .map_err(|error| GpuError::NoDevice { adapter: adapter.get_info().name, reason: error.to_string() })?;
+        Ok(Self::of(instance, adapter, device, queue))
+    }
+
+    /// Device that has been opened elsewhere.
+    pub fn of(instance: wgpu::Instance, adapter: wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let fault = Arc::new(Mutex::new(None));
         let (on_loss, on_error) = (Arc::clone(&fault), Arc::clone(&fault));
         device.set_device_lost_callback(move |reason, message| {
@@ -82,7 +89,7 @@ impl Gpu {
         });
         device
             .on_uncaptured_error(Arc::new(move |error| note(&on_error, Fault::Refused(one_line(&error.to_string())))));
-        Ok(Self { instance, adapter, device, queue, fault })
+        Self { instance, adapter, device, queue, fault }
     }
 
     /// Name and driver of the adapter, for the HUD and for reports.

@@ -11,7 +11,7 @@
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use built_in::lattice::Lattice;
-use glam::{DMat4, DQuat, DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 use image::RgbaImage;
 use physics::worldline::{Thrust, WorldlineState};
 use physics::{Celerity, Event};
@@ -25,6 +25,7 @@ use scene::refine::refine;
 use std::sync::LazyLock;
 use system_tests::exact::Boxes;
 use system_tests::lorentz::{boost, four, parts, rotation, space};
+use system_tests::occupants::EyeInWorld;
 use system_tests::photographer::{AS_GIVEN, DEFAULT_MAP, gpu};
 use system_tests::turns::turn;
 use view::{Dial, Effects, Occasion};
@@ -95,38 +96,21 @@ fn drawn(display: &Display, method: Dial, scene: &Scene, occupants: &[Occupant])
     pictures
 }
 
-/// Celerity U of what moves by `celerity` over ground that moves at β: U = γβ + u, by repetition.
-fn carried(beta: DVec3, celerity: DVec3) -> DVec3 {
-    (0..200).fold(celerity, |carried, _| beta * (1.0 + carried.length_squared()).sqrt() + celerity)
-}
-
 /// Exact picture of a channel, by textbook formulas.
 struct ExactChannel<'a> {
     boxes: &'a Boxes,
     display: &'a Display,
     channel: &'a Channel,
-    /// Transformation from the head's frame, with axes named like the room's, to the world's.
-    world_from_head: DMat4,
+    eye: EyeInWorld,
     eye_m: DVec3,
-    eye_in_world: DVec3,
 }
 
 impl<'a> ExactChannel<'a> {
     fn new(boxes: &'a Boxes, display: &'a Display, channel: &'a Channel, occupant: &Occupant) -> Self {
-        let Occupant { vehicle, thrust, head } = occupant;
-        let world_from_room = boost(-vehicle.celerity.vector()) * rotation(vehicle.orientation);
-        let of_head = carried(thrust.turn_rate.cross(head.place_m), head.celerity.vector());
-        let world_from_middle = world_from_room * boost(-of_head);
-        let aside = head.room_from_head.x_axis * (0.5 * channel.eye.side() * display.viewer.eye_separation_m);
-        // The clocks of the head and of the vehicle differ by the head's γ.
-        let turn = head.turn_rate + thrust.turn_rate * (1.0 + of_head.length_squared()).sqrt();
-        let of_eye = carried(turn.cross(aside * display.viewer.eye_scale), DVec3::ZERO);
-        let world_from_head = world_from_middle * boost(-of_eye);
-        let event = four(vehicle.ct, vehicle.position)
-            + world_from_room * four(0.0, head.place_m)
-            + world_from_middle * four(0.0, aside * display.viewer.eye_scale);
-        let (eye_m, eye_in_world) = (head.place_m + aside, space(event));
-        Self { boxes, display, channel, world_from_head, eye_m, eye_in_world }
+        let aside_m = 0.5 * channel.eye.side() * display.viewer.eye_separation_m;
+        let eye = EyeInWorld::of(occupant, aside_m * display.viewer.eye_scale);
+        let eye_m = occupant.head.place_m + occupant.head.room_from_head.x_axis * aside_m;
+        Self { boxes, display, channel, eye, eye_m }
     }
 
     /// Exact colour at a place of the viewport, in pixels; black where no surface is lit.
@@ -135,9 +119,7 @@ impl<'a> ExactChannel<'a> {
         let Some(point) = self.channel.point(self.display, at / DVec2::new(width, height)) else {
             return [0, 0, 0, 255];
         };
-        // The light came from there, at an earlier time.
-        let from = self.world_from_head * four(-1.0, (point - self.eye_m).normalize());
-        self.boxes.first(self.eye_in_world, space(from).normalize())
+        self.boxes.first(self.eye.place, self.eye.origin(point - self.eye_m))
     }
 
     fn shows_near(&self, middle: DVec2, colour: [u8; 4]) -> bool {
