@@ -2,7 +2,7 @@
 
 use openxr as xr;
 
-use super::report::{XrHand, XrPose, XrReport};
+use super::report::{XrHand, XrReport};
 use super::runtime::{XrFault, XrRuntime};
 
 /// Actions of a hand, by what they are on this program's wand.
@@ -124,10 +124,7 @@ impl XrHands {
     pub fn report<G>(&self, runtime: &XrRuntime, session: &xr::Session<G>, at: xr::Time) -> Result<XrReport, XrFault> {
         let lost = runtime.refused("the poses");
         session.sync_actions(&[xr::ActiveActionSet::new(&self.set)]).map_err(&lost)?;
-        let pose = |space: &xr::Space| -> Result<XrPose, XrFault> {
-            let (place, motion) = space.relate(&self.stage, at).map_err(&lost)?;
-            Ok(known(&place, &motion))
-        };
+        let pose = |space: &xr::Space| runtime.locate(space, &self.stage, at).map_err(&lost);
         let hand = |(side, space): &(xr::Path, xr::Space)| -> Result<XrHand, XrFault> {
             let mut buttons = 0;
             for (number, button) in self.actions.buttons.iter().enumerate() {
@@ -169,24 +166,5 @@ impl Actions {
             }
         }
         Ok(bindings)
-    }
-}
-
-/// What the runtime knows of a pose; numbers that are not finite are not known.
-fn known(place: &xr::SpaceLocation, motion: &xr::SpaceVelocity) -> XrPose {
-    let finite = |vector: xr::Vector3f| {
-        let numbers = [vector.x, vector.y, vector.z];
-        numbers.iter().all(|number| number.is_finite()).then_some(numbers)
-    };
-    let is = |flag| place.location_flags.contains(flag);
-    let moves = |flag| motion.velocity_flags.contains(flag);
-    let xr::Posef { position, orientation: turn } = place.pose;
-    let turn = [turn.x, turn.y, turn.z, turn.w];
-    XrPose {
-        position_m: finite(position).filter(|_| is(xr::SpaceLocationFlags::POSITION_VALID)),
-        orientation: (is(xr::SpaceLocationFlags::ORIENTATION_VALID) && turn.iter().all(|number| number.is_finite()))
-            .then_some(turn),
-        velocity_m_s: finite(motion.linear_velocity).filter(|_| moves(xr::SpaceVelocityFlags::LINEAR_VALID)),
-        turning_rad_s: finite(motion.angular_velocity).filter(|_| moves(xr::SpaceVelocityFlags::ANGULAR_VALID)),
     }
 }

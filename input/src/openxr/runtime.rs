@@ -1,5 +1,6 @@
 //! Runtime of a headset: loaded, asked what it can, and followed through the states of a session.
 
+use super::report::XrPose;
 use openxr as xr;
 use thiserror::Error;
 
@@ -140,6 +141,34 @@ impl XrRuntime {
         session.create_reference_space(kind, xr::Posef::IDENTITY).map_err(self.refused("a space"))
     }
 
+    /// Pose of a space in another of the same session, and how it moves, at a time of the runtime's clock.
+    ///
+    /// # Errors
+    /// A session that is lost.
+    pub fn locate(&self, space: &xr::Space, base: &xr::Space, at: xr::Time) -> xr::Result<XrPose> {
+        let zero = xr::Vector3f { x: 0.0, y: 0.0, z: 0.0 };
+        let mut motion = xr::sys::SpaceVelocity {
+            ty: xr::sys::SpaceVelocity::TYPE,
+            next: std::ptr::null_mut(),
+            velocity_flags: xr::SpaceVelocityFlags::EMPTY,
+            linear_velocity: zero,
+            angular_velocity: zero,
+        };
+        let mut place = xr::sys::SpaceLocation {
+            ty: xr::sys::SpaceLocation::TYPE,
+            next: (&raw mut motion).cast(),
+            location_flags: xr::SpaceLocationFlags::EMPTY,
+            pose: xr::Posef::IDENTITY,
+        };
+        // SAFETY: both spaces are alive, and both structures are whole and outlive the call. The crate's own `relate`
+        // leaves their flags as the memory was, which validation refuses.
+        let result = unsafe { (self.instance.fp().locate_space)(space.as_raw(), base.as_raw(), at, &raw mut place) };
+        if result.into_raw() < 0 {
+            return Err(result);
+        }
+        Ok(known(&place, &motion))
+    }
+
     /// Takes the events since the last call: begins and ends the session as the runtime demands.
     ///
     /// # Errors
@@ -172,6 +201,25 @@ impl XrRuntime {
             }
         }
         Ok(())
+    }
+}
+
+/// What the runtime knows of a pose; numbers that are not finite are not known.
+fn known(place: &xr::sys::SpaceLocation, motion: &xr::sys::SpaceVelocity) -> XrPose {
+    let finite = |vector: xr::Vector3f| {
+        let numbers = [vector.x, vector.y, vector.z];
+        numbers.iter().all(|number| number.is_finite()).then_some(numbers)
+    };
+    let is = |flag| place.location_flags.contains(flag);
+    let moves = |flag| motion.velocity_flags.contains(flag);
+    let xr::Posef { position, orientation: turn } = place.pose;
+    let turn = [turn.x, turn.y, turn.z, turn.w];
+    XrPose {
+        position_m: finite(position).filter(|_| is(xr::SpaceLocationFlags::POSITION_VALID)),
+        orientation: (is(xr::SpaceLocationFlags::ORIENTATION_VALID) && turn.iter().all(|number| number.is_finite()))
+            .then_some(turn),
+        velocity_m_s: finite(motion.linear_velocity).filter(|_| moves(xr::SpaceVelocityFlags::LINEAR_VALID)),
+        turning_rad_s: finite(motion.angular_velocity).filter(|_| moves(xr::SpaceVelocityFlags::ANGULAR_VALID)),
     }
 }
 
