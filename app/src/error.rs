@@ -4,6 +4,7 @@ use crate::commands::calibrating_error::CalibratingError;
 use crate::session::preferences::PreferencesError;
 use crate::session::scenes::SceneError;
 use hardware::{SetUpError, TrackerError};
+use headset::HeadsetError;
 use kiosk::DayLogError;
 use measure::MeasureError;
 use measure::choice::ChoiceError;
@@ -28,6 +29,9 @@ pub enum Error {
     /// A graphics device that is missing or lost.
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    /// A headset that cannot be used.
+    #[error(transparent)]
+    Headset(#[from] HeadsetError),
     /// A goal that no setting reaches.
     #[error(transparent)]
     Choice(#[from] ChoiceError),

@@ -25,7 +25,7 @@ const REST: Duration = Duration::from_millis(20);
 /// Pictures of one eye, which the runtime lends in turn.
 struct EyePictures {
     // Dropped before the chain that owns the images.
-    textures: Vec<wgpu::Texture>,
+    views: Vec<wgpu::TextureView>,
     chain: xr::Swapchain<xr::Vulkan>,
     size: [u32; 2],
 }
@@ -99,9 +99,9 @@ impl Headset {
         Ok(Self { eyes, hands, head, waiter, stream, blend, format, state, session, runtime, _device })
     }
 
-    /// Format of the pictures, in which they encode light as sRGB by themselves.
+    /// Format in which the pictures are written: sRGB as it is stored. The runtime reads the same bytes as sRGB.
     pub fn format(&self) -> wgpu::TextureFormat {
-        self.format
+        self.format.remove_srgb_suffix()
     }
 
     /// Widths and heights of the left and the right eye's picture, pixels.
@@ -142,14 +142,15 @@ impl Headset {
         Ok(Some(HeadsetTurn { report, eyes, is_seen: frame.should_render, predicted, views }))
     }
 
-    /// Shows a turn: `draw` draws and submits the picture of an eye, 0 left and 1 right, and leaves it as a target.
+    /// Shows a turn: `draw` draws and submits the picture of an eye, 0 left and 1 right, and leaves it as a target. It
+    /// writes sRGB as it is stored.
     ///
     /// # Errors
     /// A session that has ended.
     pub fn show(
         &mut self,
         turn: &HeadsetTurn,
-        mut draw: impl FnMut(usize, &wgpu::Texture),
+        mut draw: impl FnMut(usize, &wgpu::TextureView),
     ) -> Result<(), HeadsetError> {
         let refused = self.runtime.refused("a picture");
         if !turn.is_seen {
@@ -158,7 +159,7 @@ impl Headset {
         for (number, eye) in self.eyes.iter_mut().enumerate() {
             let image = eye.chain.acquire_image().map_err(&refused)?;
             eye.chain.wait_image(xr::Duration::INFINITE).map_err(&refused)?;
-            draw(number, &eye.textures[image as usize]);
+            draw(number, &eye.views[image as usize]);
             eye.chain.release_image().map_err(&refused)?;
         }
         let views: Vec<_> = turn.views.iter().zip(&self.eyes).map(|(view, eye)| eye.shown(view)).collect();
@@ -177,7 +178,7 @@ impl EyePictures {
         let usage = xr::SwapchainUsageFlags::COLOR_ATTACHMENT | xr::SwapchainUsageFlags::TRANSFER_SRC;
         let chain = session.create_swapchain(&xr::SwapchainCreateInfo {
             create_flags: xr::SwapchainCreateFlags::EMPTY,
-            usage_flags: usage | xr::SwapchainUsageFlags::SAMPLED,
+            usage_flags: usage | xr::SwapchainUsageFlags::MUTABLE_FORMAT,
             format: raw_format.as_raw() as u32,
             sample_count: 1,
             width: size[0],
@@ -187,7 +188,8 @@ impl EyePictures {
             mip_count: 1,
         })?;
         let extent = wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 };
-        let texture = |image: u64| {
+        let written = format.remove_srgb_suffix();
+        let view = |image: u64| {
             let described = hal::TextureDescriptor {
                 label: Some("eye"),
                 size: extent,
@@ -195,9 +197,9 @@ impl EyePictures {
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
                 format,
-                usage: wgpu::TextureUses::COLOR_TARGET | wgpu::TextureUses::COPY_SRC | wgpu::TextureUses::RESOURCE,
+                usage: wgpu::TextureUses::COLOR_TARGET | wgpu::TextureUses::COPY_SRC,
                 memory_flags: hal::MemoryFlags::empty(),
-                view_formats: Vec::new(),
+                view_formats: vec![written],
             };
             let descriptor = wgpu::TextureDescriptor {
                 label: Some("eye"),
@@ -206,27 +208,26 @@ impl EyePictures {
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
                 format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                    | wgpu::TextureUsages::COPY_SRC
-                    | wgpu::TextureUsages::TEXTURE_BINDING,
-                view_formats: &[],
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+                view_formats: &[written],
             };
             // SAFETY: the image is the runtime's, of this size, format and use, on this device; the callback keeps wgpu
             // from destroying it, and the texture is dropped before the chain. The runtime hands images over, and
             // wants them back, as colour targets.
-            unsafe {
+            let texture = unsafe {
                 let hal_device = device.gpu.device.as_hal::<Vulkan>()?;
                 let raw = vk::Image::from_raw(image);
                 let kept: hal::DropCallback = Box::new(|| {});
                 let made =
                     hal_device.texture_from_raw(raw, &described, Some(kept), hal::vulkan::TextureMemory::External);
                 let state = wgpu::TextureUses::COLOR_TARGET;
-                Some(device.gpu.device.create_texture_from_hal::<Vulkan>(made, &descriptor, state))
-            }
+                device.gpu.device.create_texture_from_hal::<Vulkan>(made, &descriptor, state)
+            };
+            Some(texture.create_view(&wgpu::TextureViewDescriptor { format: Some(written), ..Default::default() }))
         };
         let images = chain.enumerate_images()?;
-        let textures: Option<Vec<_>> = images.into_iter().map(texture).collect();
-        Ok(Self { textures: textures.ok_or(xr::sys::Result::ERROR_GRAPHICS_DEVICE_INVALID)?, chain, size })
+        let views: Option<Vec<_>> = images.into_iter().map(view).collect();
+        Ok(Self { views: views.ok_or(xr::sys::Result::ERROR_GRAPHICS_DEVICE_INVALID)?, chain, size })
     }
 
     /// The eye's picture as it was seen from a view.

@@ -5,7 +5,7 @@ use crate::display::{Display, Screen};
 use crate::reflection::Reflection;
 use crate::surface::FlatSurface;
 use crate::surface::shape::ScreenSurface;
-use crate::viewer::{EyeSide, Viewer};
+use crate::viewer::{EYE_SEPARATION_M, EyeSide, Viewer};
 use crate::window::{Combine, WindowPlace};
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
@@ -27,6 +27,20 @@ pub struct HeadsetEye {
     pub low: DVec2,
     /// Tangents of the angles to the right and the upper edge.
     pub high: DVec2,
+}
+
+impl HeadsetEye {
+    /// Eyes of a headset that has not said anything yet: 64 mm apart, 90° wide and high.
+    pub const USUAL: [Self; 2] = [Self::usual(-1.0), Self::usual(1.0)];
+
+    const fn usual(side: f64) -> Self {
+        Self {
+            position_m: DVec3::new(0.5 * EYE_SEPARATION_M * side, 0.0, 0.0),
+            orientation: DQuat::IDENTITY,
+            low: DVec2::NEG_ONE,
+            high: DVec2::ONE,
+        }
+    }
 }
 
 impl Display {

@@ -14,7 +14,7 @@ use input::recording::{Recording, RideHeader};
 use input::{Action, Clock, DeskConfig, HeadConfig, Sample, TrackerUrl, VehicleKind};
 use kiosk::{DayLog, Kiosk};
 use ride::{LightSpeed, Replay, RideLog, RideStart, Setup, Simulation, VehicleSettings};
-use room::Display;
+use room::{Display, HeadsetEye};
 use scene::Scene;
 use scene::collision::Collision;
 use scene::motion::Ball;
@@ -22,6 +22,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tours::TourPlan;
 
+/// Name of the display that is the headset of this machine.
+pub const HEADSET: &str = "openxr";
 /// Key of the recording's setting that identifies its scene.
 const FINGERPRINT: &str = "scene_fingerprint";
 /// Key of the recording's setting that says how the ride was shown at its beginning.
@@ -56,12 +58,23 @@ impl RideRoom {
         let tracked = url.as_ref().map(usual_display).map(str::to_owned);
         let display_name = options.display.clone().or(tracked);
         let budget = options.world.reading.budget();
-        let named = |name: &str| Display::named_or_file_within(name, &budget);
+        let named = |name: &str| match name {
+            HEADSET => Ok(Display::headset(name, &HeadsetEye::USUAL, [[1024; 2]; 2])),
+            name => Display::named_or_file_within(name, &budget),
+        };
         let display = display_name.as_deref().map(named).transpose()?;
         let set_up = SetUp::of(display.as_ref(), file)?;
         set_up.check()?;
-        let head = head_config(display.as_ref(), &set_up, options.devices.tracker.as_ref())?;
+        // The head in a headset is tracked by its runtime.
+        let own = (display_name.as_deref() == Some(HEADSET)).then_some(TrackerUrl::Openxr);
+        let url = own.as_ref().or(options.devices.tracker.as_ref());
+        let head = head_config(display.as_ref(), &set_up, url)?;
         Ok(Self { display, display_name, head, set_up })
+    }
+
+    /// True if the ride is shown in a headset.
+    pub fn is_headset(&self) -> bool {
+        self.display_name.as_deref() == Some(HEADSET)
     }
 
     /// True if the mouse moves the head.
@@ -276,7 +289,12 @@ fn devices_config(options: &RideOptions, set_up: &SetUp, desk: &DeskConfig) -> R
         trainer: options.devices.trainer.clone().or(trainer.url),
         slope_felt_percent: slope_felt.unwrap_or(usual.slope_felt_percent),
         space_mouse: options.devices.spacemouse || has_display(),
-        tracker: desk.head.as_ref().map(|head| head.url.clone()),
+        // A headset that shows the ride reports with its pictures.
+        tracker: desk
+            .head
+            .as_ref()
+            .filter(|_| options.display.as_deref() != Some(HEADSET))
+            .map(|head| head.url.clone()),
         wand_devices: desk.head.as_ref().map(HeadConfig::wand_devices).unwrap_or_default(),
         ..usual
     })

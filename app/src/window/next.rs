@@ -113,7 +113,7 @@ impl Open {
         let start = choice.scene.start;
         self.set_map_scale(choice.dial);
         let shown = (presentation.effects, presentation.fov_deg, &presentation.development);
-        let unseen = unseen(&self.gpu, &self.windows);
+        let unseen = unseen(&self.gpu, &self.windows, &self.canvas);
         let ready = upload(&self.gpu, choice, &options, self.format).and_then(|mut renderer| {
             let took = self.canvas.warm_up(&self.gpu, &mut renderer, &start, shown, &unseen)?;
             Ok((renderer, took))

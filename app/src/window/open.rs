@@ -1,6 +1,7 @@
 //! Open windows, and everything that draws in them.
 
 use super::calibrating::Calibrating;
+use super::headset::{Worn, wear};
 use super::operator::Operator;
 use super::place::{attributes, filling, fit};
 use super::server_loss;
@@ -25,7 +26,7 @@ use render::choice::Choice;
 use render::picture::largest_side;
 use render::target::{Format, texture};
 use render::{Gpu, GpuError, SceneRenderer, descriptor};
-use room::WindowPlace;
+use room::{HeadsetEye, WindowPlace};
 use scene::Scene;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -54,6 +55,8 @@ pub struct Open {
     pub(super) fresh: Presentation,
     /// What explains the ride.
     pub(super) guide: Guide,
+    /// Headset in which the ride is shown, if it is.
+    pub(super) worn: Option<Worn>,
     /// Interface in a room of several screens; otherwise it is drawn over the window's picture.
     pub(super) room_interface: Option<RoomInterface>,
     /// Window and pixel of the mouse, and true while its left button is held.
@@ -115,12 +118,20 @@ impl Open {
         let mouse_looks = options.replay.is_none() && room.head.is_none() && turns;
         let kiosk = options.kiosk.kiosk;
         let mut display = room.display.clone();
+        let (device, worn) = match room.is_headset() {
+            false => (None, None),
+            true => {
+                let (gpu, worn, eyes) = wear()?;
+                display = Some(eyes);
+                (Some(gpu), Some(worn))
+            }
+        };
         if let Some(display) = display.as_mut().filter(|_| kiosk) {
             display.fill_monitors();
         }
         let title = title(&scene.name);
         let attributes = match &display {
-            Some(display) if !options.preview => {
+            Some(display) if !options.preview && worn.is_none() => {
                 display.notices.iter().for_each(|notice| tell(format_args!("{}: {notice}", display.name)));
                 let of_place = |place: &WindowPlace| match kiosk && place.fullscreen {
                     true => filling(events, place.monitor.as_ref(), place.size, &format!("{title}: {}", place.name)),
@@ -148,12 +159,20 @@ impl Open {
         server_loss::outlive(&windows[0]);
 
         // The first surface decides which device can draw in it.
-        let instance = wgpu::Instance::new(descriptor());
         let surface_of = |instance: &wgpu::Instance, window: &Arc<Window>| {
             instance.create_surface(Arc::clone(window)).map_err(|error| GpuError::NoAdapter(error.to_string()))
         };
-        let first = surface_of(&instance, &windows[0])?;
-        let gpu = Gpu::with_instance(instance, Some(&first))?;
+        let (gpu, first) = match device {
+            Some(gpu) => {
+                let first = surface_of(&gpu.instance, &windows[0])?;
+                (gpu, first)
+            }
+            None => {
+                let instance = wgpu::Instance::new(descriptor());
+                let first = surface_of(&instance, &windows[0])?;
+                (Gpu::with_instance(instance, Some(&first))?, first)
+            }
+        };
         let mut surfaces = vec![WindowSurface::new(&gpu, Arc::clone(&windows[0]), first)?];
         for window in &windows[1..] {
             surfaces.push(WindowSurface::new(&gpu, Arc::clone(window), surface_of(&gpu.instance, window)?)?);
@@ -179,7 +198,9 @@ impl Open {
                 let smaller = display.shrink_to(largest_side(&gpu));
                 smaller.iter().for_each(|notice| tell(format_args!("{}: {notice}", display.name)));
                 let quality = Quality { format, samples: 1, density: 1.0, smooth: true };
-                let walls = Walls::new(&gpu, display, quality, screen_format);
+                let written = worn.as_ref().map_or(screen_format, Worn::format);
+                let mut walls = Walls::new(&gpu, display, quality, written);
+                walls.headset = worn.as_ref().map(|_| HeadsetEye::USUAL);
                 if options.preview {
                     Canvas::preview(&gpu, walls, screen_format)
                 } else {
@@ -202,7 +223,8 @@ impl Open {
         let room_interface = room_interface.map(|display| RoomInterface::new(&gpu, display));
         let spinner = progress::spinner("drawing the first picture");
         let shown = (fresh.effects, fresh.fov_deg, &fresh.development);
-        let took = canvas.warm_up(&gpu, &mut renderer, &start, shown, &unseen(&gpu, &surfaces))?;
+        let unseen = unseen(&gpu, &surfaces, &canvas);
+        let took = canvas.warm_up(&gpu, &mut renderer, &start, shown, &unseen)?;
         spinner.finish_and_clear();
         let mut ride = RideInProgress::new(renderer, begin()?, options.frame_rate.governor());
         ride.begin(&mut canvas, took);
@@ -213,6 +235,7 @@ impl Open {
             presentation: fresh,
             fresh,
             guide,
+            worn,
             room_interface,
             pointed: None,
             mouse_pressed: false,
@@ -272,9 +295,15 @@ pub(super) fn upload(gpu: &Gpu, choice: Choice, options: &RideOptions, format: F
     Ok(renderer)
 }
 
-/// Pictures as large as those of the windows, which nobody sees.
-pub(super) fn unseen(gpu: &Gpu, surfaces: &[WindowSurface]) -> Vec<wgpu::TextureView> {
+/// Pictures as large as those of the windows, or of a headset's eyes, which nobody sees.
+pub(super) fn unseen(gpu: &Gpu, surfaces: &[WindowSurface], canvas: &Canvas) -> Vec<wgpu::TextureView> {
     let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
+    if let Canvas::Room(walls) = canvas
+        && walls.headset.is_some()
+    {
+        let eyes = walls.display.windows.iter();
+        return eyes.map(|eye| texture(gpu, "unseen", eye.size, walls.format(), 1, usage)).collect();
+    }
     let screen =
         |surface: &WindowSurface| texture(gpu, "unseen", surface.size(), surface.configuration.format, 1, usage);
     surfaces.iter().map(screen).collect()

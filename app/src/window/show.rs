@@ -2,12 +2,13 @@
 
 use super::open::Open;
 use super::operator::Operated;
-use super::{calibrating, readings};
+use super::{calibrating, headset, readings};
 use crate::canvas::Canvas;
 use crate::error::Error;
 use crate::session::tour_ride::TourMark;
 use cabin::Shown;
 use input::{Action, SECOND, Sample};
+use presentation::Latency;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use words::Phrase;
@@ -30,8 +31,11 @@ impl Open {
         }
         self.look_ahead();
         let began = Instant::now();
-        self.ask_for_textures(began + LONGEST_WAIT)?;
-        let Some(screens) = self.in_step.turn() else {
+        let turn = self.headset_turn();
+        // The headset waits for no window.
+        self.ask_for_textures(if turn.is_some() { Instant::now() } else { began + LONGEST_WAIT })?;
+        let screens = self.in_step.turn();
+        if turn.is_none() && screens.is_none() {
             // The ride goes on while nothing can be shown.
             let Some(frame) = self.ride.live.frame()? else { return Ok(false) };
             self.carry_out(frame.controls.actions);
@@ -40,14 +44,19 @@ impl Open {
             }
             std::thread::sleep(HELD_PAUSE.saturating_sub(began.elapsed()));
             return Ok(true);
-        };
+        }
+        let screens = screens.unwrap_or_default();
         if let Canvas::Picture(picture) = &mut self.canvas {
             picture.resize(self.windows[0].size());
         }
 
         // Devices to light, on one page: frame.rs.
-        let shown = self.presentation;
+        let mut shown = self.presentation;
         self.ride.live.language = shown.language;
+        if turn.is_some() {
+            // A picture that is late by a frame would be seen at a time for which it was not drawn.
+            shown.latency = Latency::Low;
+        }
         let Some(actions) = self.ride.frame(&self.gpu, &mut self.canvas, &shown)? else { return Ok(false) };
         self.carry_out(actions);
         if self.leaves {
@@ -84,6 +93,9 @@ impl Open {
         if is_flat {
             self.interface.press(keys);
         }
+        if let Some(turn) = &turn {
+            self.show_in_headset(turn, &shown.development)?;
+        }
         let calibrating = self.calibrating.as_ref().filter(|calibrating| calibrating.active);
         let (page, guide, kiosk) = (&mut self.page, &self.guide, self.kiosk);
         for (number, texture) in &screens {
@@ -91,10 +103,20 @@ impl Open {
             let screen = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
             let window = &self.windows[*number].window;
             let first_pixel = window.inner_position().map_or([0, 0], |place| [place.x, place.y]);
-            self.canvas.show(&self.gpu, &mut encoder, *number, &shown.development, &screen, first_pixel);
+            let mut picture = None;
+            if let Some(worn) = &mut self.worn {
+                drop(render::display::clear(&mut encoder, &screen));
+                let drawn = (&mut self.canvas, &shown.development);
+                picture = worn.copy(&self.gpu, &mut encoder, drawn, &mut self.interface);
+            } else {
+                self.canvas.show(&self.gpu, &mut encoder, *number, &shown.development, &screen, first_pixel);
+            }
             if *number == 0 {
                 let size = [texture.texture.width(), texture.texture.height()];
                 self.interface.draw(&self.gpu, window, &mut encoder, &screen, size, |ui| {
+                    if let Some(picture) = picture {
+                        headset::mirror(ui, picture);
+                    }
                     if let Some(calibrating) = calibrating {
                         calibrating::show(ui, calibrating, shown.language);
                         return;
@@ -172,8 +194,10 @@ impl Open {
         let wand = wand.zip(buttons).and_then(|(wand, buttons)| cabin::of_wand(wand, buttons));
         // A press that was over before this picture counts for it.
         let pressed = std::mem::take(&mut self.mouse_clicked) || self.mouse_pressed;
+        // The window shows the picture of a headset smaller, and turned with the head.
+        let has_mouse = self.worn.is_none();
         let mouse = || {
-            let (window, pixel) = self.pointed?;
+            let (window, pixel) = self.pointed.filter(|_| has_mouse)?;
             cabin::of_mouse(&walls.display, window, pixel, pressed)
         };
         let (sheets, actions) = interface.draw(&self.gpu, shown, &self.guide, &mut self.page, wand.or_else(mouse));

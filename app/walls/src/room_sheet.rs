@@ -1,5 +1,6 @@
 //! Sheets that float in the room: rectangles with a picture on them, at rest in the vehicle.
 
+use crate::head::RoomHead;
 use glam::{DVec2, DVec3};
 
 /// Rectangle in the room with a picture on it: a menu, readings, the beam of a pointer.
@@ -15,6 +16,19 @@ pub struct RoomSheet {
     pub up_m: DVec3,
     /// Picture on the sheet, upright: sRGB in 8 bits, times its opacity.
     pub picture: wgpu::TextureView,
+}
+
+impl RoomSheet {
+    /// The sheet as a head sees it that has turned: in axes that have turned with the head, about its place.
+    pub(crate) fn seen_by(&self, head: &RoomHead) -> Self {
+        let turned = head.room_from_head.transpose();
+        Self {
+            corner_m: head.place_m + turned * (self.corner_m - head.place_m),
+            right_m: turned * self.right_m,
+            up_m: turned * self.up_m,
+            picture: self.picture.clone(),
+        }
+    }
 }
 
 /// Place at which a ray meets a rectangle.

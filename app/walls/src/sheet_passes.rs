@@ -31,6 +31,8 @@ pub struct SheetChannel<'a> {
     pub gains: Option<&'a wgpu::TextureView>,
     /// Exponent of the projector's light over its signal; `None` for the sRGB curve.
     pub gamma: Option<f64>,
+    /// Format in which the target is written.
+    pub format: wgpu::TextureFormat,
 }
 
 /// Way in which a pass shows light.
@@ -117,7 +119,7 @@ impl SheetPasses {
             wgpu::BindingResource::TextureView(channel.gains.unwrap_or(&sheet.picture)),
         ];
         let look = SheetLook {
-            format: target.texture().format(),
+            format: channel.format,
             table: points.is_some(),
             gains: channel.gains.is_some(),
             gamma: channel.gamma,

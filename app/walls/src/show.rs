@@ -164,6 +164,11 @@ impl Walls {
         viewport: [u32; 4],
     ) {
         let Some((occupant, _)) = self.shown.as_ref().filter(|_| !self.sheets.is_empty()) else { return };
+        // Sheets rest in the room; where pictures turn with the head, the room is seen turned against it.
+        let sheets: Vec<_> = match self.display.viewer.turns_pictures {
+            true => self.sheets.iter().map(|sheet| sheet.seen_by(&occupant.head)).collect(),
+            false => self.sheets.clone(),
+        };
         let (picture, of_display) = (&self.pictures[channel], &self.display.channels[channel]);
         let eye_m = occupant.eye(&self.display.viewer, of_display.eye).place_m;
         let surface = match (of_display.flat(&self.display), picture.points()) {
@@ -173,8 +178,12 @@ impl Walls {
         };
         let gamma = of_display.projector(&self.display).and_then(|projector| projector.gamma);
         let gains = picture.gains.as_ref();
-        let channel = SheetChannel { screen: surface, eye_m, viewport, gains, gamma };
-        self.sheet_passes.draw(gpu, encoder, screen, &self.sheets, &channel);
+        // A headset's pictures are written as sRGB is stored, whatever reads them.
+        let format = screen.texture().format();
+        let is_screen = format.remove_srgb_suffix() == self.screen.remove_srgb_suffix();
+        let format = if is_screen { self.screen } else { format };
+        let channel = SheetChannel { screen: surface, eye_m, viewport, gains, gamma, format };
+        self.sheet_passes.draw(gpu, encoder, screen, &sheets, &channel);
     }
 }
 

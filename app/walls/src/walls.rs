@@ -14,7 +14,7 @@ use crate::test_grid::TestGrids;
 use render::certainty::Certainty;
 use render::display::{Adaptation, Developer, Development, LINEAR_FORMAT, Pass, Seen, resample};
 use render::{Gpu, GpuError, Pending, SceneRenderer};
-use room::{Channel, Display, EyeBehind, EyeSide, Warp, WindowPlace};
+use room::{Channel, Display, EyeBehind, EyeSide, HeadsetEye, Warp, WindowPlace};
 use std::time::Duration;
 use view::Effects;
 
@@ -79,6 +79,8 @@ pub struct Walls {
     pub(crate) rest: Option<RoomRest>,
     pub(crate) rests: bool,
     pub(crate) adaptation: Adaptation,
+    /// Eyes of the headset whose display this is: its screens are put before them for each picture.
+    pub headset: Option<[HeadsetEye; 2]>,
     /// Sheets that float in the room, the undermost first.
     pub sheets: Vec<RoomSheet>,
     pub(crate) sheet_passes: SheetPasses,
@@ -105,6 +107,7 @@ impl Walls {
             rest: None,
             rests: false,
             adaptation: Adaptation::new(gpu),
+            headset: None,
             sheets: Vec::new(),
             sheet_passes: SheetPasses::default(),
             grids: None,
@@ -113,6 +116,11 @@ impl Walls {
             quality,
             display,
         }
+    }
+
+    /// Format of the screens.
+    pub fn format(&self) -> wgpu::TextureFormat {
+        self.screen
     }
 
     /// Begins anew, as if nothing had been drawn: the next frame is not at rest.
@@ -155,6 +163,9 @@ impl Walls {
         let mut drawn = DrawnChannels::default();
         if self.grids.is_some() {
             return Ok(drawn);
+        }
+        if let Some(eyes) = &self.headset {
+            self.display.follow_head(eyes, submitted.occupant.head.place_m);
         }
         self.fit(gpu, renderer, &submitted);
         let SubmittedRoom { effects, eyes, .. } = submitted;

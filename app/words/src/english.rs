@@ -224,6 +224,7 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::TourPurpose => "Rides for you, explains what you see, and asks. Under a minute each.",
         Phrase::Loading => "{0} is being made ready; the ride goes on meanwhile",
         Phrase::CannotLoad => "it cannot be shown: {0}",
+        Phrase::HeadsetLost => "{0}; the ride goes on in the window",
         Phrase::StaysRecorded => "a recorded ride stays in its scene",
         Phrase::Method => "Drawing",
         Phrase::AutoPurpose => "The program takes the method that suits the scene.",

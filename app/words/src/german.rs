@@ -237,6 +237,7 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::TourPurpose => "Fährt für dich, erklärt, was du siehst, und fragt. Jede dauert keine Minute.",
         Phrase::Loading => "{0} wird vorbereitet; die Fahrt geht solange weiter",
         Phrase::CannotLoad => "das lässt sich nicht zeigen: {0}",
+        Phrase::HeadsetLost => "{0}; die Fahrt geht im Fenster weiter",
         Phrase::StaysRecorded => "eine aufgezeichnete Fahrt bleibt in ihrer Szene",
         Phrase::Method => "Zeichnen",
         Phrase::AutoPurpose => "Das Programm nimmt das Verfahren, das zur Szene passt.",

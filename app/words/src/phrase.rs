@@ -426,6 +426,8 @@ phrases! {
     Loading,
     /// Notice of something that cannot be shown; {0}: the reason.
     CannotLoad,
+    /// Notice of a headset whose session has ended; {0}: the reason.
+    HeadsetLost,
     /// Notice that a ride which is shown again keeps its scene.
     StaysRecorded,
     /// Choice of the method of drawing.
