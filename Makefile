@@ -18,7 +18,7 @@ test: ## Install what the tests need, and run every test
 test-headset: ## Try rides with a headset on a real OpenXR runtime; makes that once (190 MB to load, 1 GB on the disk)
 	@scripts/install test
 	scripts/monado root
-	$(CARGO) --config 'target."cfg(unix)".runner = ["$(CURDIR)/scripts/monado", "run"]' test --release -p system-tests -p rapidity --test headset
+	$(CARGO) --config 'target."cfg(unix)".runner = ["$(CURDIR)/scripts/monado", "run"]' test --release -p system-tests -p rapidity --test headset -- --test-threads=1
 
 bench: ## Measure: kernel against copy bandwidth, integrators, frames
 	@scripts/install test

@@ -9,6 +9,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     outlive_full_files();
     quieten_mesa();
+    quieten_openxr();
     match command::parse_from(std::env::args_os()).map(|command| run(&command)) {
         Ok(Ok(status)) => status,
         Ok(Err(error)) => {
@@ -78,6 +79,14 @@ fn outlive_full_files() {
     // SAFETY: to ignore a signal is always sound, and no other thread runs yet.
     unsafe {
         libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
+    }
+}
+
+/// Keeps the OpenXR loader from complaints of its own where no runtime answers: the program says so in a sentence.
+fn quieten_openxr() {
+    if std::env::var_os("XR_LOADER_DEBUG").is_none() {
+        // SAFETY: no other thread runs yet that could read the environment.
+        unsafe { std::env::set_var("XR_LOADER_DEBUG", "none") };
     }
 }
 

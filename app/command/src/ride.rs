@@ -80,8 +80,8 @@ pub struct RideOptions {
     /// pixel however long it takes. At rest the picture is drawn to the full.
     #[arg(long, value_name = "FPS", default_value = "30", value_parser = values::frame_rate, help_heading = "Picture")]
     pub frame_rate: FrameRate,
-    /// Room in whose windows the ride is shown: window, desk, stereo-wall, cave4, cave6, curved, dome6, or a display
-    /// file (.toml, .mpcdi, .pvx). F4 shows test grids and moves the corners of the pictures.
+    /// Room in whose windows the ride is shown: window, desk, stereo-wall, cave4, cave6, curved, dome6, a display file
+    /// (.toml, .mpcdi, .pvx), or openxr: the headset of this machine, with its controllers as wands. F4 shows test grids and moves the corners of the pictures.
     #[arg(long, value_name = "DISPLAY", help_heading = "Room", conflicts_with = "out")]
     pub display: Option<String>,
     /// Show the room itself in one window, with the pictures on its screens. Dragging turns the view, the wheel moves

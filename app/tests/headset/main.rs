@@ -7,4 +7,8 @@
 #[allow(dead_code, reason = "the tests of the program use all of it")]
 mod runner;
 
+mod rides;
 mod tracker;
+#[path = "../program/virtual_display.rs"]
+#[allow(dead_code, reason = "the tests of the program use all of it")]
+mod virtual_display;

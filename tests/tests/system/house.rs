@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 31] = [
+const PLAN: [(&str, &[&str]); 32] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -42,6 +42,7 @@ const PLAN: [(&str, &[&str]); 31] = [
     ("interface", &["hardware", "input", "presentation", "render", "ride", "shaders", "view", "words"]),
     ("probe", &["physics", "ride"]),
     ("walls", &["physics", "render", "room", "shaders", "view"]),
+    ("headset", &["input", "render", "room"]),
     ("measure", &["exact_reference", "input", "physics", "render", "ride", "scene", "trace", "view"]),
     (
         "cabin",
@@ -83,6 +84,7 @@ const PLAN: [(&str, &[&str]); 31] = [
             "cabin",
             "command",
             "hardware",
+            "headset",
             "input",
             "interface",
             "kiosk",
