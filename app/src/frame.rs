@@ -159,6 +159,17 @@ impl RideInProgress {
         }
     }
 
+    /// Holds the rate of a screen that has one of its own, unless every pixel is drawn.
+    pub fn hold_rate(&mut self, frame_rate: f64) {
+        /// Difference of two rates that are one.
+        const SAME: f64 = 0.01;
+        if let Some(governor) = &mut self.governor
+            && (governor.frame_rate() / frame_rate - 1.0).abs() > SAME
+        {
+            *governor = Governor::new(frame_rate);
+        }
+    }
+
     /// Sets the resolution of the next frame, so that the frame rate is held. Pictures at rest take the time that they
     /// need.
     fn govern(&mut self, canvas: &mut Canvas) {

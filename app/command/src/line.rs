@@ -88,8 +88,8 @@ pub struct DevicesOptions {
     /// Trainer over the network, which is listed with the other devices: tcp://HOST or tcp://HOST:PORT.
     #[arg(long, value_name = "URL")]
     pub trainer: Option<TrainerUrl>,
-    /// Tracker of the head: vrpn://HOST/DEVICE, dtrack://:5000, opentrack://:4242 or openxr://. All that it sends is listed, also
-    /// what no ride uses, with the reason of the last message that could not be read.
+    /// Tracker of the head: vrpn://HOST/DEVICE, dtrack://:5000, opentrack://:4242 or openxr://. All
+    /// that it sends is listed, also what no ride uses, with the reason of the last message that could not be read.
     #[arg(long, value_name = "URL")]
     pub tracker: Option<TrackerUrl>,
     /// Number of the tracker's sensor, or body, that is on the head [default: 0, or that of the display].

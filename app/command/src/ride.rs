@@ -81,7 +81,8 @@ pub struct RideOptions {
     #[arg(long, value_name = "FPS", default_value = "30", value_parser = values::frame_rate, help_heading = "Picture")]
     pub frame_rate: FrameRate,
     /// Room in whose windows the ride is shown: window, desk, stereo-wall, cave4, cave6, curved, dome6, a display file
-    /// (.toml, .mpcdi, .pvx), or openxr: the headset of this machine, with its controllers as wands. F4 shows test grids and moves the corners of the pictures.
+    /// (.toml, .mpcdi, .pvx), or openxr: the headset of this machine, with its controllers as wands. F4
+    /// shows test grids and moves the corners of the pictures.
     #[arg(long, value_name = "DISPLAY", help_heading = "Room", conflicts_with = "out")]
     pub display: Option<String>,
     /// Show the room itself in one window, with the pictures on its screens. Dragging turns the view, the wheel moves
@@ -224,10 +225,9 @@ pub struct DeviceOptions {
     #[arg(long)]
     pub spacemouse: bool,
     /// Tracker of the head: opentrack://:4242 at a desk (opentrack's output "UDP over network"), vrpn://HOST/DEVICE,
-    /// dtrack://:5000 (or dtrack://GROUP:5000), openxr:// (the headset of this machine's OpenXR runtime), or mouse, whose
-    /// drags turn and move the head. Its turn turns the
-    /// picture of the displays desk, the usual one with opentrack, and window. U makes the head's present pose the
-    /// straight one.
+    /// dtrack://:5000 (or dtrack://GROUP:5000), openxr:// (the headset of this machine), or mouse, whose drags
+    /// turn and move the head. Its turn turns the picture of the displays desk, the usual one with opentrack, and
+    /// window. U makes the head's present pose the straight one.
     #[arg(long, value_name = "URL")]
     pub tracker: Option<TrackerUrl>,
 }

@@ -4,9 +4,9 @@
 //! hands will be then, and what each eye sees. The ride takes head and hands as a sample
 //! ([`HeadsetTurn::report`]), as it takes those of every tracker, and draws; [`Headset::show`] hands the pictures over.
 //!
-//! What is drawn is what `walls` draws: two screens that move with the head ([`room::Display::headset`]). The runtime may
-//! turn a late picture after the head. For a turn that is exact: aberration does not depend on where one looks. For a
-//! step it is not, as in every program.
+//! What is drawn is what `walls` draws: two screens that move with the head ([`room::Display::headset`]). The runtime
+//! may turn a late picture after the head. For a turn that is exact: aberration does not depend on where one looks. For
+//! a step it is not, as in every program.
 
 mod device;
 mod error;

@@ -54,6 +54,8 @@ pub struct HeadsetTurn {
     pub eyes: [HeadsetEye; 2],
     /// True if the frame will be seen.
     pub is_seen: bool,
+    /// Time from one frame of the headset to the next.
+    pub period: Duration,
     predicted: xr::Time,
     views: Vec<xr::View>,
 }
@@ -139,7 +141,9 @@ impl Headset {
         let (of_head, views) = (locate(&self.head)?.1, locate(self.hands.stage())?.1);
         let [left, right] = of_head.as_slice() else { return Err(HeadsetError::Format) };
         let eyes = [eye(left), eye(right)];
-        Ok(Some(HeadsetTurn { report, eyes, is_seen: frame.should_render, predicted, views }))
+        let period =
+            u64::try_from(frame.predicted_display_period.as_nanos()).map_or(Duration::ZERO, Duration::from_nanos);
+        Ok(Some(HeadsetTurn { report, eyes, is_seen: frame.should_render, period, predicted, views }))
     }
 
     /// Shows a turn: `draw` draws and submits the picture of an eye, 0 left and 1 right, and leaves it as a target. It

@@ -5,7 +5,8 @@
 //! to the ride as samples (`events`), so that they are recorded like any device's, and come back as actions
 //! (`actions`). A lost surface is made again. A room with screens has one window
 //! or several for its channels; they are drawn and presented together ([`WindowsInStep`](walls::WindowsInStep)), and
-//! the first has the interface. A headset takes turns of its own (`headset`), and the window shows its left picture.
+//! the first has the interface. A headset takes turns of its own (`headset_turns`), and the window shows its left
+//! picture.
 
 mod actions;
 mod application;
@@ -13,6 +14,7 @@ mod calibrate;
 mod calibrating;
 mod events;
 mod headset;
+mod headset_turns;
 mod next;
 mod open;
 mod operator;

@@ -48,8 +48,8 @@ fn a_ride_with_a_headset_as_its_tracker_replays_to_the_same_bits_without_it() {
             _ => {}
         }
     }
-    assert!(heads.len() > 50 && wands > 50, "{} heads and {wands} wands were tracked", heads.len());
-    assert!(places.len() > 100, "{} reports", places.len());
+    assert!(heads.len() > 10 && wands > 10, "{} heads and {wands} wands were tracked", heads.len());
+    assert!(places.len() > 40, "{} reports", places.len());
     let speeds = places.windows(5).map(|five| {
         let (from, to) = (&five[0], &five[4]);
         let way = [0, 1, 2].map(|axis| to.1[axis] - from.1[axis]);
@@ -58,7 +58,7 @@ fn a_ride_with_a_headset_as_its_tracker_replays_to_the_same_bits_without_it() {
     let fastest = speeds.fold(0.0, f64::max);
     let found = heads.iter().map(|head| head.velocity_m_s.length()).fold(0.0, f64::max);
     assert!(fastest > 0.01, "the simulated head rests: {fastest} m/s");
-    assert!((0.5 * fastest..2.0 * fastest).contains(&found), "{found} m/s of {fastest} m/s");
+    assert!((0.4 * fastest..2.5 * fastest).contains(&found), "{found} m/s of {fastest} m/s");
 
     // Where no runtime answers, the same.
     let mut command = rapidity(folder.path(), &["ride", "--replay", "r.mcap", "--verify"]);

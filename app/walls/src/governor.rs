@@ -90,6 +90,11 @@ impl Governor {
         }
     }
 
+    /// Frames per second that are held.
+    pub fn frame_rate(&self) -> f64 {
+        self.wanted_s.recip()
+    }
+
     /// Share of the window's width and height that is drawn.
     pub fn share(&self) -> f64 {
         self.share
