@@ -42,6 +42,8 @@ pub struct RideInProgress {
     pub overlaps: bool,
     /// View from outside.
     pub outside: OutsideLook,
+    /// Head of somebody who watches a recorded ride in a headset, and looks round in it.
+    pub viewer: Option<HeadState>,
     /// Newest frame of the ride.
     pub frame: Option<RideFrame>,
     /// Vertices without a finite apparent position in the picture drawn last.
@@ -71,6 +73,7 @@ impl RideInProgress {
             under_way: VecDeque::new(),
             overlaps: false,
             outside: OutsideLook::default(),
+            viewer: None,
             frame: None,
             not_finite: 0,
             behind: None,
@@ -106,7 +109,8 @@ impl RideInProgress {
         // Devices to observer: samples, controls, vehicle, worldline, head.
         let Some(frame) = self.live.frame()? else { return Ok(None) };
         let light_speed = frame.vehicle.light_speed().speed_of_light_m_s();
-        let head = frame.controls.head.as_ref().map(|state| tracker::head(&held(state, frame.paused), light_speed));
+        let head = self.viewer.as_ref().or(frame.controls.head.as_ref());
+        let head = head.map(|state| tracker::head(&held(state, frame.paused), light_speed));
         let (gaze, outside) = self.outside.follow(&frame.gaze, shown);
         let watcher = Watcher {
             gaze,

@@ -34,7 +34,7 @@ pub use measure::MeasureOptions;
 pub use picture::PictureOptions;
 pub use rays::RayOptions;
 pub use render::{RenderOptions, Viewpoint};
-pub use ride::{DeviceOptions, RideOptions, VehicleName, VehicleOptions};
+pub use ride::{DeviceOptions, HEADSET, RideOptions, VehicleName, VehicleOptions};
 pub use room::RoomOptions;
 pub use values::{Output, ValueError};
 pub use world::{ReadingOptions, SceneChoice, WorldOptions};

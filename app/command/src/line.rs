@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use super::measure::MeasureOptions;
 use super::render::RenderOptions;
-use super::ride::RideOptions;
+use super::ride::{HEADSET, RideOptions};
 use super::values;
 use super::world::ReadingOptions;
 
@@ -147,6 +147,9 @@ pub fn parse_from(arguments: impl IntoIterator<Item = impl Into<OsString> + Clon
                 let drawing = ["renderer", "tolerance", "edge", "transform", "map_scale"];
                 options.drawing_is_given = drawing.iter().any(given);
                 options.picture.is_given = picture();
+                if options.headset {
+                    options.display = Some(HEADSET.to_owned());
+                }
             }
             Command::Render(options) => options.picture.is_given = picture(),
             _ => {}

@@ -14,6 +14,7 @@ use super::render::RenderOptions;
 use super::ride::{RideOptions, VehicleName};
 use super::values::Output;
 use super::world::{SceneChoice, WorldOptions};
+use input::TrackerUrl;
 use presentation::Latency;
 use render::display::Development;
 use ride::Nose;
@@ -84,7 +85,12 @@ impl RideOptions {
                 "a window takes 1 or 4 samples a pixel; it takes 4",
             );
             if self.display.is_some() {
-                self.picture.pass_over_sizes(self.preview, &mut passed);
+                self.picture.pass_over_sizes(self.preview || self.is_headset(), &mut passed);
+            }
+            if self.is_headset() {
+                passed.note(self.preview, "--preview", "a headset shows the ride from within");
+                let other = devices.tracker.as_ref().is_some_and(|tracker| *tracker != TrackerUrl::Openxr);
+                passed.note(other, "--tracker", "the headset's runtime tracks the head");
             }
         }
         passed.0
@@ -228,6 +234,9 @@ mod tests {
             ("ride --realtime", false, "--realtime"),
             ("ride --samples 16", false, "--samples"),
             ("ride --display cave4 --fov 90", false, "--fov"),
+            ("ride --display openxr --fov 90", false, "--fov"),
+            ("ride --display openxr --preview", false, "--preview"),
+            ("ride --headset --tracker mouse", false, "--tracker"),
             ("ride --display cave4 --size 64x64", false, "--size"),
             ("ride --replay r.mcap --camera 1", false, "--camera"),
             ("ride --replay r.mcap --verify --size 64x64", true, "--size"),
@@ -260,6 +269,7 @@ mod tests {
             ("ride --tracker mouse --display cave4 --latency low --map-scale 2 --tolerance 2", false),
             ("ride --out a.mp4 --realtime --bicycle /dev/null --samples 16 --fov 90 --size 64x64", true),
             ("ride --display cave4 --preview --size 64x64", false),
+            ("ride --headset --size 64x64 --tracker openxr://", false),
             ("ride --replay r.mcap --trust", false),
             ("ride --replay r.mcap --verify --threads 2", true),
             ("render --out a.png --exposure 2 --tone filmic --size 64x64 --scene a.glb --trust --camera 1", true),

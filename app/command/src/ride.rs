@@ -18,6 +18,8 @@ use view::{Dial, Occasion, RendererName};
 use words::Language;
 
 /// Samples per pixel in a window drawn by hardware, where they cost little. A software driver draws one.
+/// Name of the display that is the headset of this machine.
+pub const HEADSET: &str = "openxr";
 const HARDWARE_SAMPLES: u32 = 4;
 
 /// Kind of vehicle that carries the observer.
@@ -85,6 +87,9 @@ pub struct RideOptions {
     /// shows test grids and moves the corners of the pictures.
     #[arg(long, value_name = "DISPLAY", help_heading = "Room", conflicts_with = "out")]
     pub display: Option<String>,
+    /// Show the ride in the headset of this machine: short for `--display openxr`.
+    #[arg(long, help_heading = "Room", conflicts_with_all = ["display", "out", "preview"])]
+    pub headset: bool,
     /// Show the room itself in one window, with the pictures on its screens. Dragging turns the view, the wheel moves
     /// closer.
     #[arg(long, help_heading = "Room", requires = "display")]
@@ -119,6 +124,11 @@ pub struct RideOptions {
 }
 
 impl RideOptions {
+    /// True if the ride is shown in a headset.
+    pub fn is_headset(&self) -> bool {
+        self.display.as_deref() == Some(HEADSET)
+    }
+
     /// Checks rules between the options.
     pub(super) fn check(&self) -> Result<(), String> {
         if self.verify && self.replay.is_none() {

@@ -5,7 +5,7 @@ use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::live::Live;
 use crate::session::scenes::{self, World};
-use command::{RideOptions, SceneChoice, VehicleName, WorldOptions};
+use command::{HEADSET, RideOptions, SceneChoice, VehicleName, WorldOptions};
 use directories::ProjectDirs;
 use glam::DVec3;
 use hardware::{SetUp, head_config, usual_display};
@@ -22,8 +22,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tours::TourPlan;
 
-/// Name of the display that is the headset of this machine.
-pub const HEADSET: &str = "openxr";
 /// Key of the recording's setting that identifies its scene.
 const FINGERPRINT: &str = "scene_fingerprint";
 /// Key of the recording's setting that says how the ride was shown at its beginning.
@@ -290,11 +288,7 @@ fn devices_config(options: &RideOptions, set_up: &SetUp, desk: &DeskConfig) -> R
         slope_felt_percent: slope_felt.unwrap_or(usual.slope_felt_percent),
         space_mouse: options.devices.spacemouse || has_display(),
         // A headset that shows the ride reports with its pictures.
-        tracker: desk
-            .head
-            .as_ref()
-            .filter(|_| options.display.as_deref() != Some(HEADSET))
-            .map(|head| head.url.clone()),
+        tracker: desk.head.as_ref().filter(|_| !options.is_headset()).map(|head| head.url.clone()),
         wand_devices: desk.head.as_ref().map(HeadConfig::wand_devices).unwrap_or_default(),
         ..usual
     })

@@ -4,15 +4,19 @@ use super::surface_interface::SurfaceInterface;
 use crate::canvas::Canvas;
 use crate::error::Error;
 use crate::output::say::tell;
-use crate::session::start::HEADSET;
+use command::HEADSET;
 use egui::load::SizedTexture;
 use egui::{Color32, LayerId, Pos2, Rect, Ui, Vec2};
 use headset::{Headset, HeadsetDevice, HeadsetError};
-use input::openxr::{XrRuntime, XrUse};
+use input::decoder::{Actions, Decoder};
+use input::head::{Recentring, TrackedHead};
+use input::openxr::{OpenxrDecoder, XrRuntime, XrUse};
+use input::{HeadConfig, HeadState, Nanos, TrackerUrl};
 use render::Gpu;
 use render::display::Development;
 use render::target::texture;
 use room::{Display, HeadsetEye};
+use std::time::Instant;
 
 /// Headset that is worn, or was.
 pub(super) struct Worn {
@@ -21,6 +25,14 @@ pub(super) struct Worn {
     /// Copy of the left eye's picture, for the window.
     mirror: Option<(wgpu::TextureView, egui::TextureId)>,
     format: wgpu::TextureFormat,
+    viewer: HeadsetViewer,
+}
+
+/// Head of whoever wears the headset, where no ride asks for it.
+pub(super) struct HeadsetViewer {
+    decoder: OpenxrDecoder,
+    head: TrackedHead,
+    began: Instant,
 }
 
 /// Reaches the headset. Returns the device that its runtime wants, and the display of its eyes.
@@ -35,10 +47,33 @@ pub(super) fn wear() -> Result<(Gpu, Worn, Display), Error> {
     tell(format_args!("headset: {headset}, by {runtime}"));
     let display = Display::headset(HEADSET, &HeadsetEye::USUAL, session.sizes());
     let format = session.format();
-    Ok((device.gpu, Worn { session: Some(session), mirror: None, format }, display))
+    let viewer = HeadsetViewer::new(&display)?;
+    Ok((device.gpu, Worn { session: Some(session), mirror: None, format, viewer }, display))
+}
+
+impl HeadsetViewer {
+    /// Head that begins in the driver's seat.
+    fn new(display: &Display) -> Result<Self, Error> {
+        let (home, recentre) = (display.viewer.head_m.to_array(), Recentring::Start);
+        let config = HeadConfig { home, recentre, ..HeadConfig::new(TrackerUrl::Openxr) };
+        Ok(Self { decoder: OpenxrDecoder::default(), head: TrackedHead::new(config)?, began: Instant::now() })
+    }
+
+    /// State of the head after a report.
+    fn follow(&mut self, report: &[u8]) -> HeadState {
+        let at = self.began.elapsed().as_nanos() as Nanos;
+        self.decoder.bytes(at, report, &mut Actions::default());
+        self.decoder.take_poses().iter().for_each(|pose| self.head.pose(pose));
+        self.head.state(at)
+    }
 }
 
 impl Worn {
+    /// State of the head of whoever wears the headset, after a report.
+    pub(super) fn follow(&mut self, report: &[u8]) -> HeadState {
+        self.viewer.follow(report)
+    }
+
     /// Format in which its pictures are written.
     pub(super) fn format(&self) -> wgpu::TextureFormat {
         self.format
@@ -71,4 +106,39 @@ pub(super) fn mirror(ui: &Ui, picture: SizedTexture) {
     let place = Rect::from_center_size(screen.center(), picture.size * scale);
     let whole = Rect::from_min_size(Pos2::ZERO, Vec2::splat(1.0));
     ui.ctx().layer_painter(LayerId::background()).image(picture.id, place, whole, Color32::WHITE);
+}
+
+#[cfg(test)]
+mod tests {
+    //! Law: whoever watches a recorded ride in a headset begins in the driver's seat, wherever the headset is, and looks
+    //! and moves from there as the headset does.
+    #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+
+    use super::*;
+    use glam::{DQuat, DVec3};
+    use input::openxr::{XrPose, XrReport};
+
+    fn report(time_ns: i64, place: [f32; 3], turn: DQuat) -> Vec<u8> {
+        let orientation = Some(turn.to_array().map(|part| part as f32));
+        let head = XrPose { position_m: Some(place), orientation, ..XrPose::default() };
+        XrReport { time_ns, head, ..XrReport::default() }.to_bytes()
+    }
+
+    #[test]
+    fn a_viewer_begins_in_the_seat_and_looks_round_from_there() {
+        let display = Display::headset(HEADSET, &HeadsetEye::USUAL, [[64; 2]; 2]);
+        let mut viewer = HeadsetViewer::new(&display).unwrap();
+        let quarter = DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2);
+        let first = viewer.follow(&report(0, [3.0, 1.2, -5.0], quarter));
+        assert!((first.position_m - display.viewer.head_m).length() < 1e-6, "{first:?}");
+        assert!((first.orientation * DVec3::NEG_Z - DVec3::NEG_Z).length() < 1e-6, "{first:?}");
+        // A step ahead, which is to the left of the runtime's room, and a look to the left.
+        std::thread::sleep(std::time::Duration::from_millis(2));
+        let turned = quarter * DQuat::from_rotation_y(0.5);
+        let next = viewer.follow(&report(50_000_000, [2.9, 1.2, -5.0], turned));
+        let moved = next.position_m - first.position_m;
+        assert!((moved - DVec3::new(0.0, 0.0, -0.1)).length() < 1e-6, "{moved}");
+        let ahead = DQuat::from_rotation_y(0.5) * DVec3::NEG_Z;
+        assert!((next.orientation * DVec3::NEG_Z - ahead).length() < 1e-6, "{next:?}");
+    }
 }

@@ -17,8 +17,11 @@ impl Open {
         match session.wait() {
             Ok(None) => None,
             Ok(Some(turn)) => {
-                if !self.ride.live.is_recorded() {
-                    let report = turn.report.to_bytes();
+                let report = turn.report.to_bytes();
+                if self.ride.live.is_recorded() {
+                    // Whoever watches a recorded ride looks round in it.
+                    self.ride.viewer = self.worn.as_mut().map(|worn| worn.follow(&report));
+                } else {
                     self.ride.live.say(|at| Sample::bytes(at, SampleSource::Openxr, report));
                 }
                 if !turn.period.is_zero() {
@@ -59,6 +62,7 @@ impl Open {
         if let Some(worn) = &mut self.worn {
             worn.session = None;
         }
+        self.ride.viewer = None;
         self.ride.live.say(|at| Sample::closed(at, SampleSource::Openxr));
         tell(Language::English.fill(Phrase::HeadsetLost, &[&sentence(error, Language::English)]));
         let language = self.presentation.language;

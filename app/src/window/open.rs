@@ -126,7 +126,8 @@ impl Open {
                 (Some(gpu), Some(worn))
             }
         };
-        if let Some(display) = display.as_mut().filter(|_| kiosk) {
+        let in_windows = kiosk && worn.is_none();
+        if let Some(display) = display.as_mut().filter(|_| in_windows) {
             display.fill_monitors();
         }
         let title = title(&scene.name);
@@ -152,7 +153,7 @@ impl Open {
             window.set_cursor_visible(!kiosk);
             windows.push(Arc::new(window));
         }
-        if let Some(display) = display.as_mut().filter(|_| kiosk) {
+        if let Some(display) = display.as_mut().filter(|_| in_windows) {
             fit(display, &windows, options.display.as_deref().is_none_or(|name| [WINDOW, DESK].contains(&name)));
         }
 
@@ -201,7 +202,7 @@ impl Open {
                 let written = worn.as_ref().map_or(screen_format, Worn::format);
                 let mut walls = Walls::new(&gpu, display, quality, written);
                 walls.headset = worn.as_ref().map(|_| HeadsetEye::USUAL);
-                if options.preview {
+                if options.preview && worn.is_none() {
                     Canvas::preview(&gpu, walls, screen_format)
                 } else {
                     Canvas::Room(Box::new(walls))

@@ -6,7 +6,7 @@ use super::{calibrating, headset, readings};
 use crate::canvas::Canvas;
 use crate::error::Error;
 use crate::session::tour_ride::TourMark;
-use cabin::Shown;
+use cabin::{PointerRay, Shown};
 use input::{Action, SECOND, Sample};
 use presentation::Latency;
 use std::sync::atomic::Ordering;
@@ -191,7 +191,10 @@ impl Open {
         let frame = self.ride.frame.as_ref().filter(|_| !self.ride.live.is_recorded());
         let wand = frame.and_then(|frame| frame.controls.wand.as_deref());
         let buttons = self.room.head.as_ref().and_then(|head| head.wand.as_ref()).map(|wand| &wand.actions);
+        // A press that was over before this picture has chosen, and counts for it.
+        let chose = frame.is_some_and(|frame| frame.controls.actions.contains(&Action::Choose));
         let wand = wand.zip(buttons).and_then(|(wand, buttons)| cabin::of_wand(wand, buttons));
+        let wand = wand.map(|ray| PointerRay { pressed: ray.pressed || chose, ..ray });
         // A press that was over before this picture counts for it.
         let pressed = std::mem::take(&mut self.mouse_clicked) || self.mouse_pressed;
         // The window shows the picture of a headset smaller, and turned with the head.
