@@ -110,8 +110,8 @@ pub(super) fn mirror(ui: &Ui, picture: SizedTexture) {
 
 #[cfg(test)]
 mod tests {
-    //! Law: whoever watches a recorded ride in a headset begins in the driver's seat, wherever the headset is, and looks
-    //! and moves from there as the headset does.
+    //! Law: whoever watches a recorded ride in a headset begins in the driver's seat, wherever the headset is, and
+    //! looks and moves from there as the headset does.
     #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
     use super::*;
