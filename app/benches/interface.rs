@@ -1,8 +1,9 @@
 //! The cost of what explains a ride: menu, map and diagram, in a window and in a room of four walls for two eyes, on
 //! the default path, beside frames with the head-up display alone.
 //!
-//! A cyclist rides through the old town for a minute; the frames after it are drawn with and without them, in turns, so that other load on the machine affects both alike. Everything is open at once, and the readings change
-//! from frame to frame, so every picture of the interface is drawn anew.
+//! A cyclist rides through the old town for a minute; the frames after it are drawn with and without them, in turns, so
+//! that other load on the machine affects both alike. Everything is open at once, and the readings change from frame to
+//! frame, so every picture of the interface is drawn anew.
 //!
 //! `cargo bench -p rapidity --bench interface`, or with words after `--`: a size of the window, as in `640x360`;
 //! `side=320`: pixels of a wall; `10s`: seconds for each table.

@@ -1,9 +1,9 @@
-//! Law: each pixel of the picture that the runtime is handed for an eye shows what that eye sees in the direction of the
-//! pixel, at rest, near light, and while the head moves in the vehicle; by both methods.
+//! Law: each pixel of the picture that the runtime is handed for an eye shows what that eye sees in the direction of
+//! the pixel, at rest, near light, and while the head moves in the vehicle; by both methods.
 //!
 //! Directions come from the runtime's own angles, by plain geometry here; they are taken to the world by multiplied-out
-//! matrices, and meet boxes one by one. A wrong program exchanges the eyes, mirrors an angle, counts the head as at rest,
-//! encodes twice, or hands over the picture of another moment.
+//! matrices, and meet boxes one by one. A wrong program exchanges the eyes, mirrors an angle, counts the head as at
+//! rest, encodes twice, or hands over the picture of another moment.
 
 use built_in::lattice::Lattice;
 use glam::{DMat3, DQuat, DVec2, DVec3};
