@@ -43,7 +43,7 @@ pub struct Headset {
     session: xr::Session<xr::Vulkan>,
     runtime: XrRuntime,
     // Kept until the session is gone.
-    _device: wgpu::Device,
+    device: wgpu::Device,
 }
 
 /// Frame that the runtime waits for.
@@ -58,13 +58,6 @@ pub struct HeadsetTurn {
     pub period: Duration,
     predicted: xr::Time,
     views: Vec<xr::View>,
-}
-
-impl HeadsetTurn {
-    /// Time at which the frame will be seen, on the runtime's clock, nanoseconds.
-    pub fn seen_at_ns(&self) -> i64 {
-        self.predicted.as_nanos()
-    }
 }
 
 impl Headset {
@@ -87,7 +80,7 @@ impl Headset {
             .instance
             .enumerate_view_configuration_views(runtime.system, VIEWS)
             .map_err(runtime.refused("its views"))?;
-        let [left, right] = views.as_slice() else { return Err(HeadsetError::Format) };
+        let [left, right] = views.as_slice() else { return Err(HeadsetError::Views(views.len())) };
         let pictures = |view: &xr::ViewConfigurationView| {
             let size = [view.recommended_image_rect_width, view.recommended_image_rect_height];
             EyePictures::new(&session, device, size, (raw_format, format)).map_err(&refused)
@@ -95,10 +88,10 @@ impl Headset {
         let eyes = [pictures(left)?, pictures(right)?];
         let blends = runtime.instance.enumerate_environment_blend_modes(runtime.system, VIEWS).map_err(&refused)?;
         let blend = blends.first().copied().unwrap_or(xr::EnvironmentBlendMode::OPAQUE);
-        let _device = device.gpu.device.clone();
+        let device = device.gpu.device.clone();
         let state = XrState::default();
         drop(refused);
-        Ok(Self { eyes, hands, head, waiter, stream, blend, format, state, session, runtime, _device })
+        Ok(Self { eyes, hands, head, waiter, stream, blend, format, state, session, runtime, device })
     }
 
     /// Format in which the pictures are written: sRGB as it is stored. The runtime reads the same bytes as sRGB.
@@ -114,11 +107,6 @@ impl Headset {
     /// Names of the headset and of its runtime.
     pub fn names(&self) -> (String, &str) {
         (self.runtime.headset(), self.runtime.name())
-    }
-
-    /// State of the session.
-    pub fn state(&self) -> XrState {
-        self.state
     }
 
     /// Waits until the runtime wants a frame; `None` while the headset rests, after a short pause. A turn that is given
@@ -139,7 +127,7 @@ impl Headset {
         let report = self.hands.report(&self.runtime, &self.session, predicted)?;
         let locate = |space: &xr::Space| self.session.locate_views(VIEWS, predicted, space).map_err(&refused);
         let (of_head, views) = (locate(&self.head)?.1, locate(self.hands.stage())?.1);
-        let [left, right] = of_head.as_slice() else { return Err(HeadsetError::Format) };
+        let [left, right] = of_head.as_slice() else { return Err(HeadsetError::Views(of_head.len())) };
         let eyes = [eye(left), eye(right)];
         let period =
             u64::try_from(frame.predicted_display_period.as_nanos()).map_or(Duration::ZERO, Duration::from_nanos);
@@ -169,6 +157,13 @@ impl Headset {
         let views: Vec<_> = turn.views.iter().zip(&self.eyes).map(|(view, eye)| eye.shown(view)).collect();
         let layer = xr::CompositionLayerProjection::new().space(self.hands.stage()).views(&views);
         Ok(self.stream.end(turn.predicted, self.blend, &[&layer]).map_err(&refused)?)
+    }
+}
+
+impl Drop for Headset {
+    /// Waits for what is still drawn into the runtime's images, which go with the session.
+    fn drop(&mut self) {
+        let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
     }
 }
 

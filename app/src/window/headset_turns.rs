@@ -75,6 +75,6 @@ impl Open {
 fn sentence(error: &HeadsetError, language: Language) -> String {
     match error {
         HeadsetError::Runtime(fault) => heard::fault(&fault.clone().into(), language),
-        HeadsetError::Device(_) | HeadsetError::Format => error.to_string(),
+        HeadsetError::Device(_) | HeadsetError::Views(_) | HeadsetError::Format => error.to_string(),
     }
 }

@@ -6,13 +6,7 @@
 use bytemuck::bytes_of;
 use glam::Vec4;
 use render::Gpu;
-use render::display::{Pass, UNIFORM, contents};
-
-const FILTERED: wgpu::BindingType = wgpu::BindingType::Texture {
-    sample_type: wgpu::TextureSampleType::Float { filterable: true },
-    view_dimension: wgpu::TextureViewDimension::D2,
-    multisampled: false,
-};
+use render::display::{FILTERED, Pass, UNIFORM, contents};
 
 /// Pass that enlarges light, its texels mixed linearly.
 pub struct LightEnlarger {

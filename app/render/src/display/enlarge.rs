@@ -1,16 +1,10 @@
 //! Pictures that are drawn smaller than their window, enlarged to it.
 
-use super::passes::{Pass, UNIFORM, contents};
+use super::passes::{FILTERED, Pass, UNIFORM, contents};
 use crate::gpu::Gpu;
 use crate::target::texture;
 use bytemuck::bytes_of;
 use glam::Vec4;
-
-const FILTERED: wgpu::BindingType = wgpu::BindingType::Texture {
-    sample_type: wgpu::TextureSampleType::Float { filterable: true },
-    view_dimension: wgpu::TextureViewDimension::D2,
-    multisampled: false,
-};
 
 /// Pass that enlarges developed pictures, and the picture that it enlarges.
 pub struct Enlarger {
