@@ -39,7 +39,8 @@ impl StageTimes {
         self.note(Phrase::StageTransform, duration);
     }
 
-    fn note(&mut self, name: Phrase, duration: Duration) {
+    /// Records the time of something else than a stage.
+    pub fn note(&mut self, name: Phrase, duration: Duration) {
         let milliseconds = duration.as_secs_f64() * 1e3;
         match self.stages.iter_mut().find(|stage| stage.0 == name) {
             Some(stage) => stage.1 = mixed(stage.1, milliseconds),

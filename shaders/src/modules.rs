@@ -22,10 +22,13 @@ impl Module {
 }
 
 const ABERRATION: &str = include_str!("../wgsl/aberration.wgsl");
+const DEVELOP: &str = include_str!("../wgsl/develop.wgsl");
 const ENCODE: &str = include_str!("../wgsl/encode.wgsl");
 const FULLSCREEN: &str = include_str!("../wgsl/fullscreen.wgsl");
+const GAMUT: &str = include_str!("../wgsl/gamut.wgsl");
 const RADIANCE: &str = include_str!("../wgsl/radiance.wgsl");
 const TABLE: &str = include_str!("../wgsl/table.wgsl");
+const TONE: &str = include_str!("../wgsl/tone.wgsl");
 const SHARED: &str = include_str!("../wgsl/shared.wgsl");
 
 const PHOTO_SURFACE: &str = include_str!("../wgsl/photo_surface.wgsl");
@@ -68,16 +71,21 @@ pub const METER: Module = Module {
 /// Module that shows linear radiance on a screen of sRGB.
 pub const DISPLAY: Module = Module {
     name: "display",
-    files: &[
-        FULLSCREEN,
-        RADIANCE,
-        include_str!("../wgsl/tone.wgsl"),
-        include_str!("../wgsl/gamut.wgsl"),
-        ENCODE,
-        TABLE,
-        include_str!("../wgsl/display.wgsl"),
-    ],
+    files: &[FULLSCREEN, RADIANCE, TONE, GAMUT, ENCODE, DEVELOP, TABLE, include_str!("../wgsl/display.wgsl")],
 };
+/// Module that shows the linear radiance of two views in the two layers of a screen of sRGB, in one pass.
+pub const DISPLAY_VIEWS: Module = Module {
+    name: "display of views",
+    files: &[FULLSCREEN, RADIANCE, TONE, GAMUT, ENCODE, DEVELOP, include_str!("../wgsl/display_views.wgsl")],
+};
+/// Module that shows the number of each view.
+pub const VIEW_NUMBER: Module =
+    Module { name: "view number", files: &[FULLSCREEN, include_str!("../wgsl/view_number.wgsl")] };
+/// Module that blackens the parts of a picture that nobody sees.
+pub const HIDDEN: Module = Module { name: "hidden", files: &[include_str!("../wgsl/hidden.wgsl")] };
+/// Module that hands on the depth of a picture.
+pub const SCENE_DEPTH: Module =
+    Module { name: "scene depth", files: &[FULLSCREEN, include_str!("../wgsl/scene_depth.wgsl")] };
 /// Module that combines both eyes' pictures on the same pixels.
 pub const COMBINE: Module =
     Module { name: "combine", files: &[FULLSCREEN, ENCODE, include_str!("../wgsl/combine.wgsl")] };
@@ -102,7 +110,26 @@ pub const MARKS: Module = Module { name: "marks", files: &[include_str!("../wgsl
 pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
 
 /// Every module, for tests that validate them.
-pub const MODULES: [Module; 17] = [
-    SHEET, SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, COMBINE, ROOM, ENCODED, INTERFACE, RESAMPLE,
-    ENLARGE, MARKS, PROBE,
+pub const MODULES: [Module; 21] = [
+    SHEET,
+    SURFACE,
+    SKY,
+    WARP,
+    SHADOW,
+    ACCUMULATE,
+    COPY,
+    METER,
+    DISPLAY,
+    DISPLAY_VIEWS,
+    VIEW_NUMBER,
+    HIDDEN,
+    SCENE_DEPTH,
+    COMBINE,
+    ROOM,
+    ENCODED,
+    INTERFACE,
+    RESAMPLE,
+    ENLARGE,
+    MARKS,
+    PROBE,
 ];

@@ -1,25 +1,17 @@
-// Turns radiance into a pixel: exposure, tone, gamut, the projector's brightness, then the sRGB curve (IEC 61966-2-1).
+// Turns radiance into a pixel: development, the projector's brightness, then the sRGB curve (IEC 61966-2-1).
 
-// Curves that a pipeline is made for, so that no pixel pays for the others.
-override TONE: u32 = TONE_REINHARD;
-override GAMUT: u32 = GAMUT_DESATURATE;
 // True if each pixel is multiplied by a factor of its own, and a value is added to it.
 override GAINS: bool = false;
 // Power of its light that is the screen's signal; 0 for the sRGB curve.
 override SIGNAL_POWER: f32 = 0.0;
 
 @group(0) @binding(0) var radiance: texture_2d<f32>;
-@group(0) @binding(1) var<uniform> adaptation: AdaptationState;
-@group(0) @binding(2) var<storage, read> curve: array<f32>;
 @group(0) @binding(3) var<uniform> placement: PlacementUniforms;
 @group(0) @binding(4) var gains: texture_2d<f32>;
 
 @fragment
 fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
-    let texel = vec2<i32>(at.xy - placement.origin);
-    let seen = sound(textureLoad(radiance, texel, 0)).rgb;
-    let exposed = clamp(seen * adaptation.exposure * placement.exposure, vec3(-BRIGHTEST), vec3(BRIGHTEST));
-    var linear = in_gamut(toned(exposed));
+    var linear = developed(textureLoad(radiance, vec2<i32>(at.xy - placement.origin), 0), placement.exposure);
     if (GAINS) {
         let gain = mixed_at(gains, (at.xy - placement.origin) / vec2<f32>(textureDimensions(radiance)));
         linear = clamp(linear * gain.r + gain.g, vec3(0.0), vec3(1.0));

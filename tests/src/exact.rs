@@ -61,9 +61,19 @@ impl Boxes {
 
     /// Encoded colour that a ray from `eye` along `direction` (world axes) meets first.
     pub fn first(&self, eye: DVec3, direction: DVec3) -> [u8; 4] {
-        let hits = self.boxes.iter().filter_map(|target| target.meet(eye, direction));
-        let nearest = hits.min_by(|a, b| a.0.total_cmp(&b.0));
+        let nearest = self.nearest(eye, direction);
         nearest.map_or(self.background, |(_, axis)| self.faces[axis][usize::from(direction[axis] > 0.0)])
+    }
+
+    /// Distance in the world of what a ray from `eye` along `direction` (world axes) meets first, metres.
+    pub fn distance(&self, eye: DVec3, direction: DVec3) -> Option<f64> {
+        self.nearest(eye, direction).map(|(distance, _)| distance)
+    }
+
+    /// Distance to the face that a ray meets first, and the axis across it.
+    fn nearest(&self, eye: DVec3, direction: DVec3) -> Option<(f64, usize)> {
+        let hits = self.boxes.iter().filter_map(|target| target.meet(eye, direction));
+        hits.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 }
 

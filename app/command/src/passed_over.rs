@@ -6,7 +6,6 @@
 use std::path::Path;
 
 use super::dial::DialOptions;
-use super::frame_rate::FrameRate;
 use super::line::CheckOptions;
 use super::measure::MeasureOptions;
 use super::picture::PictureOptions;
@@ -54,11 +53,7 @@ impl RideOptions {
         let devices = &self.devices;
         if films {
             passed.note(self.latency != Latency::default(), "--latency", "it is for windows, and this ride is filmed");
-            passed.note(
-                self.frame_rate != FrameRate::default(),
-                "--frame-rate",
-                "it is for windows, and this ride is filmed",
-            );
+            passed.note(self.frame_rate.is_some(), "--frame-rate", "it is for windows, and this ride is filmed");
             let live = devices.are_ridden() || self.realtime;
             let replayed = self.replay.is_some();
             if live && self.record.is_some() {

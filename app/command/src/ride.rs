@@ -79,9 +79,10 @@ pub struct RideOptions {
     #[arg(long, value_enum, default_value = "overlap", help_heading = "Picture")]
     pub latency: Latency,
     /// Frames per second that a window or a room holds, by drawing fewer pixels and enlarging them; `off` draws every
-    /// pixel however long it takes. At rest the picture is drawn to the full.
-    #[arg(long, value_name = "FPS", default_value = "30", value_parser = values::frame_rate, help_heading = "Picture")]
-    pub frame_rate: FrameRate,
+    /// pixel however long it takes. At rest the picture is drawn to the full. A headset keeps its own rate, or takes the
+    /// nearest to this that it can [default: 30; in a headset its own].
+    #[arg(long, value_name = "FPS", value_parser = values::frame_rate, help_heading = "Picture")]
+    pub frame_rate: Option<FrameRate>,
     /// Room in whose windows the ride is shown: window, desk, stereo-wall, cave4, cave6, curved, dome6, a display file
     /// (.toml, .mpcdi, .pvx), or openxr: the headset of this machine, with its controllers as wands. F4
     /// shows test grids and moves the corners of the pictures.

@@ -73,7 +73,7 @@ impl HeadsetDevice {
         .map_err(|error| failed(&error))?;
         let exposed = hal_instance.expose_adapter(vk_physical).ok_or_else(|| failed(&"wgpu cannot use it"))?;
 
-        let features = exposed.features & Gpu::WANTED;
+        let features = exposed.features & Gpu::WANTED.union(wgpu::Features::MULTIVIEW);
         let limits = exposed.capabilities.limits.clone();
         let extensions = exposed.adapter.required_device_extensions(features);
         let mut wanted = exposed.adapter.physical_device_features(&extensions, features);

@@ -12,8 +12,8 @@ pub enum HeadsetError {
     /// A graphics device that cannot be opened as the runtime wants it, and the driver's reason.
     #[error("the headset's graphics device cannot be opened: {0}; update its driver, or the OpenXR runtime")]
     Device(String),
-    /// Number of views of a headset that has other than two.
-    #[error("the headset has {0} views: Rapidity draws for two eyes")]
+    /// Number of views of a headset that has neither one nor two for each of two eyes.
+    #[error("the headset has {0} views: Rapidity draws one or two for each of two eyes")]
     Views(usize),
     /// Formats of pictures of which none is sRGB in 8 bits.
     #[error("the OpenXR runtime takes no pictures of sRGB in 8 bits")]

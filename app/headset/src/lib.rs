@@ -10,8 +10,10 @@
 
 mod device;
 mod error;
+mod pictures;
 mod session;
 
 pub use device::HeadsetDevice;
 pub use error::HeadsetError;
+pub use pictures::{DEPTH_NEAR_M, TurnPictures};
 pub use session::{Headset, HeadsetTurn};

@@ -1,19 +1,18 @@
-//! Session of a headset: its turns, and the pictures of its eyes.
+//! Session of a headset: its turns, and what it tells of itself.
 
 use crate::device::HeadsetDevice;
 use crate::error::HeadsetError;
+use crate::pictures::{DEPTH_NEAR_M, TurnPictures, ViewPictures};
 use ash::vk;
-use ash::vk::Handle;
 use glam::{DQuat, DVec2, DVec3};
 use input::openxr::{XrHands, XrReport, XrRuntime, XrState};
 use openxr as xr;
+use render::display::draws_views;
 use room::HeadsetEye;
-use std::time::Duration;
-use wgpu::hal;
-use wgpu::hal::api::Vulkan;
+use std::time::{Duration, Instant};
 
-/// Kind of views: one for each eye.
-const VIEWS: xr::ViewConfigurationType = xr::ViewConfigurationType::PRIMARY_STEREO;
+/// Numbers of views that are drawn: one for each eye, or two for each eye, of which one lies within the other.
+const VIEW_COUNTS: [usize; 2] = [2, 4];
 /// Formats of pictures that are taken, the best first.
 const FORMATS: [(vk::Format, wgpu::TextureFormat); 2] = [
     (vk::Format::R8G8B8A8_SRGB, wgpu::TextureFormat::Rgba8UnormSrgb),
@@ -22,17 +21,12 @@ const FORMATS: [(vk::Format, wgpu::TextureFormat); 2] = [
 /// Pause of a turn while the headset rests.
 const REST: Duration = Duration::from_millis(20);
 
-/// Pictures of one eye, which the runtime lends in turn.
-struct EyePictures {
-    // Dropped before the chain that owns the images.
-    views: Vec<wgpu::TextureView>,
-    chain: xr::Swapchain<xr::Vulkan>,
-    size: [u32; 2],
-}
-
 /// Session of a headset. It must be dropped before the device.
 pub struct Headset {
-    eyes: [EyePictures; 2],
+    pictures: Vec<ViewPictures>,
+    sizes: Vec<[u32; 2]>,
+    /// True if both eyes' pictures are shown in one pass. A caller may set it to false.
+    pub in_one_pass: bool,
     hands: XrHands,
     head: xr::Space,
     waiter: xr::FrameWaiter,
@@ -50,12 +44,16 @@ pub struct Headset {
 pub struct HeadsetTurn {
     /// Head and hands at the time at which the frame will be seen.
     pub report: XrReport,
-    /// What each eye sees of the head's surroundings, left and right.
-    pub eyes: [HeadsetEye; 2],
+    /// What each view sees of the head's surroundings: left and right by turns.
+    pub eyes: Vec<HeadsetEye>,
     /// True if the frame will be seen.
     pub is_seen: bool,
     /// Time from one frame of the headset to the next.
     pub period: Duration,
+    /// Moment at which the pose was asked for.
+    pub asked: Instant,
+    /// Time from then until the frame is seen, if the runtime's clock can be read.
+    pub lead: Option<Duration>,
     predicted: xr::Time,
     views: Vec<xr::View>,
 }
@@ -78,20 +76,39 @@ impl Headset {
         let (raw_format, format) = FORMATS.into_iter().find(known).ok_or(HeadsetError::Format)?;
         let views = runtime
             .instance
-            .enumerate_view_configuration_views(runtime.system, VIEWS)
+            .enumerate_view_configuration_views(runtime.system, runtime.views)
             .map_err(runtime.refused("its views"))?;
-        let [left, right] = views.as_slice() else { return Err(HeadsetError::Views(views.len())) };
-        let pictures = |view: &xr::ViewConfigurationView| {
-            let size = [view.recommended_image_rect_width, view.recommended_image_rect_height];
-            EyePictures::new(&session, device, size, (raw_format, format)).map_err(&refused)
-        };
-        let eyes = [pictures(left)?, pictures(right)?];
-        let blends = runtime.instance.enumerate_environment_blend_modes(runtime.system, VIEWS).map_err(&refused)?;
+        if !VIEW_COUNTS.contains(&views.len()) {
+            return Err(HeadsetError::Views(views.len()));
+        }
+        let size =
+            |view: &xr::ViewConfigurationView| [view.recommended_image_rect_width, view.recommended_image_rect_height];
+        let sizes: Vec<_> = views.iter().map(size).collect();
+        let with_depth = runtime.takes_depth && ViewPictures::takes_depth(&formats);
+        let pictures =
+            ViewPictures::of_views(&session, device, &sizes, (raw_format, format), with_depth).map_err(&refused)?;
+        let blends =
+            runtime.instance.enumerate_environment_blend_modes(runtime.system, runtime.views).map_err(&refused)?;
         let blend = blends.first().copied().unwrap_or(xr::EnvironmentBlendMode::OPAQUE);
+        let in_one_pass = draws_views(&device.gpu);
         let device = device.gpu.device.clone();
         let state = XrState::default();
         drop(refused);
-        Ok(Self { eyes, hands, head, waiter, stream, blend, format, state, session, runtime, device })
+        Ok(Self {
+            pictures,
+            sizes,
+            in_one_pass,
+            hands,
+            head,
+            waiter,
+            stream,
+            blend,
+            format,
+            state,
+            session,
+            runtime,
+            device,
+        })
     }
 
     /// Format in which the pictures are written: sRGB as it is stored. The runtime reads the same bytes as sRGB.
@@ -99,9 +116,49 @@ impl Headset {
         self.format.remove_srgb_suffix()
     }
 
-    /// Widths and heights of the left and the right eye's picture, pixels.
-    pub fn sizes(&self) -> [[u32; 2]; 2] {
-        [self.eyes[0].size, self.eyes[1].size]
+    /// Width and height of each view's picture, pixels: left and right by turns.
+    pub fn sizes(&self) -> &[[u32; 2]] {
+        &self.sizes
+    }
+
+    /// Triangles of a view's picture that no lens shows: the tangents of their corners to the right and up, three by
+    /// three.
+    pub fn hidden(&self, view: usize) -> Vec<[f32; 2]> {
+        if !self.runtime.knows_masks {
+            return Vec::new();
+        }
+        let kind = xr::VisibilityMaskTypeKHR::HIDDEN_TRIANGLE_MESH;
+        let Ok(mask) = self.session.get_visibility_mask_khr(self.runtime.views, view as u32, kind) else {
+            return Vec::new();
+        };
+        let corner = |index: &u32| mask.vertices.get(*index as usize).map(|corner| [corner.x, corner.y]);
+        mask.indices
+            .chunks_exact(3)
+            .filter_map(|of| of.iter().map(corner).collect::<Option<Vec<_>>>())
+            .flatten()
+            .collect()
+    }
+
+    /// Frame rates between which the headset can choose, Hz; none if it cannot.
+    pub fn rates(&self) -> Vec<f32> {
+        if self.runtime.knows_rates {
+            self.session.enumerate_display_refresh_rates().unwrap_or_default()
+        } else {
+            Vec::new()
+        }
+    }
+
+    /// Asks the headset for the one of its frame rates that is nearest to `wanted_hz`. Returns that.
+    ///
+    /// # Errors
+    /// A runtime that refuses.
+    pub fn choose_rate(&self, wanted_hz: f64) -> Result<Option<f32>, HeadsetError> {
+        let distance = |rate: &f32| (f64::from(*rate) - wanted_hz).abs();
+        let nearest = self.rates().into_iter().min_by(|one, other| distance(one).total_cmp(&distance(other)));
+        if let Some(rate) = nearest {
+            self.session.request_display_refresh_rate(rate).map_err(self.runtime.refused("a frame rate"))?;
+        }
+        Ok(nearest)
     }
 
     /// Names of the headset and of its runtime.
@@ -124,37 +181,64 @@ impl Headset {
         let frame = self.waiter.wait().map_err(&refused)?;
         self.stream.begin().map_err(&refused)?;
         let predicted = frame.predicted_display_time;
+        let asked = Instant::now();
+        let now = self.runtime.now();
         let report = self.hands.report(&self.runtime, &self.session, predicted)?;
-        let locate = |space: &xr::Space| self.session.locate_views(VIEWS, predicted, space).map_err(&refused);
+        let locate =
+            |space: &xr::Space| self.session.locate_views(self.runtime.views, predicted, space).map_err(&refused);
         let (of_head, views) = (locate(&self.head)?.1, locate(self.hands.stage())?.1);
-        let [left, right] = of_head.as_slice() else { return Err(HeadsetError::Views(of_head.len())) };
-        let eyes = [eye(left), eye(right)];
-        let period =
-            u64::try_from(frame.predicted_display_period.as_nanos()).map_or(Duration::ZERO, Duration::from_nanos);
-        Ok(Some(HeadsetTurn { report, eyes, is_seen: frame.should_render, period, predicted, views }))
+        if of_head.len() != self.sizes.len() || views.len() != self.sizes.len() {
+            return Err(HeadsetError::Views(of_head.len()));
+        }
+        let eyes = of_head.iter().map(eye).collect();
+        let duration = |nanoseconds: i64| u64::try_from(nanoseconds).ok().map(Duration::from_nanos);
+        let period = duration(frame.predicted_display_period.as_nanos()).unwrap_or_default();
+        let lead = now.and_then(|now| duration(predicted.as_nanos() - now.as_nanos()));
+        let is_seen = frame.should_render;
+        Ok(Some(HeadsetTurn { report, eyes, is_seen, period, asked, lead, predicted, views }))
     }
 
-    /// Shows a turn: `draw` draws and submits the picture of an eye, 0 left and 1 right, and leaves it as a target. It
-    /// writes sRGB as it is stored.
+    /// Shows a turn: `draw` draws and submits the pictures of one view or two, leaves them as targets, and returns true
+    /// if it has drawn their depth.
     ///
     /// # Errors
     /// A session that has ended.
     pub fn show(
         &mut self,
         turn: &HeadsetTurn,
-        mut draw: impl FnMut(usize, &wgpu::TextureView),
+        mut draw: impl FnMut(&TurnPictures<'_>) -> bool,
     ) -> Result<(), HeadsetError> {
         let refused = self.runtime.refused("a picture");
         if !turn.is_seen {
             return Ok(self.stream.end(turn.predicted, self.blend, &[]).map_err(&refused)?);
         }
-        for (number, eye) in self.eyes.iter_mut().enumerate() {
-            let image = eye.chain.acquire_image().map_err(&refused)?;
-            eye.chain.wait_image(xr::Duration::INFINITE).map_err(&refused)?;
-            draw(number, &eye.views[image as usize]);
-            eye.chain.release_image().map_err(&refused)?;
+        let mut has_depth = !self.pictures.is_empty();
+        for pictures in &mut self.pictures {
+            has_depth &= pictures.lend(self.in_one_pass, &mut draw).map_err(&refused)?;
         }
-        let views: Vec<_> = turn.views.iter().zip(&self.eyes).map(|(view, eye)| eye.shown(view)).collect();
+        let parts = |depth: bool| {
+            let of_view = |view: usize| {
+                let pictures = self.pictures.iter().find(|of| (of.first..of.first + of.count).contains(&view))?;
+                pictures.part(view - pictures.first, depth)
+            };
+            (0..turn.views.len()).map(of_view).collect::<Option<Vec<_>>>()
+        };
+        // Reversed depth: what is infinitely far has 0.
+        let depth = |part: xr::SwapchainSubImage<'_, xr::Vulkan>| xr::sys::CompositionLayerDepthInfoKHR {
+            ty: xr::sys::CompositionLayerDepthInfoKHR::TYPE,
+            next: std::ptr::null(),
+            sub_image: part.into_raw(),
+            min_depth: 0.0,
+            max_depth: 1.0,
+            near_z: f32::INFINITY,
+            far_z: DEPTH_NEAR_M as f32,
+        };
+        let depths: Vec<_> =
+            parts(has_depth).filter(|_| has_depth).unwrap_or_default().into_iter().map(depth).collect();
+        let parts = parts(false).unwrap_or_default();
+        let number_and_view = turn.views.iter().zip(parts).enumerate();
+        let views: Vec<_> =
+            number_and_view.map(|(number, (view, part))| shown(view, part, depths.get(number))).collect();
         let layer = xr::CompositionLayerProjection::new().space(self.hands.stage()).views(&views);
         Ok(self.stream.end(turn.predicted, self.blend, &[&layer]).map_err(&refused)?)
     }
@@ -167,75 +251,17 @@ impl Drop for Headset {
     }
 }
 
-impl EyePictures {
-    fn new(
-        session: &xr::Session<xr::Vulkan>,
-        device: &HeadsetDevice,
-        size: [u32; 2],
-        (raw_format, format): (vk::Format, wgpu::TextureFormat),
-    ) -> xr::Result<Self> {
-        let usage = xr::SwapchainUsageFlags::COLOR_ATTACHMENT | xr::SwapchainUsageFlags::TRANSFER_SRC;
-        let chain = session.create_swapchain(&xr::SwapchainCreateInfo {
-            create_flags: xr::SwapchainCreateFlags::EMPTY,
-            usage_flags: usage | xr::SwapchainUsageFlags::MUTABLE_FORMAT,
-            format: raw_format.as_raw() as u32,
-            sample_count: 1,
-            width: size[0],
-            height: size[1],
-            face_count: 1,
-            array_size: 1,
-            mip_count: 1,
-        })?;
-        let extent = wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 };
-        let written = format.remove_srgb_suffix();
-        let view = |image: u64| {
-            let described = hal::TextureDescriptor {
-                label: Some("eye"),
-                size: extent,
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUses::COLOR_TARGET | wgpu::TextureUses::COPY_SRC,
-                memory_flags: hal::MemoryFlags::empty(),
-                view_formats: vec![written],
-            };
-            let descriptor = wgpu::TextureDescriptor {
-                label: Some("eye"),
-                size: extent,
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-                view_formats: &[written],
-            };
-            // SAFETY: the image is the runtime's, of this size, format and use, on this device; the callback keeps wgpu
-            // from destroying it, and the texture is dropped before the chain. The runtime hands images over, and
-            // wants them back, as colour targets.
-            let texture = unsafe {
-                let hal_device = device.gpu.device.as_hal::<Vulkan>()?;
-                let raw = vk::Image::from_raw(image);
-                let kept: hal::DropCallback = Box::new(|| {});
-                let made =
-                    hal_device.texture_from_raw(raw, &described, Some(kept), hal::vulkan::TextureMemory::External);
-                let state = wgpu::TextureUses::COLOR_TARGET;
-                device.gpu.device.create_texture_from_hal::<Vulkan>(made, &descriptor, state)
-            };
-            Some(texture.create_view(&wgpu::TextureViewDescriptor { format: Some(written), ..Default::default() }))
-        };
-        let images = chain.enumerate_images()?;
-        let views: Option<Vec<_>> = images.into_iter().map(view).collect();
-        Ok(Self { views: views.ok_or(xr::sys::Result::ERROR_GRAPHICS_DEVICE_INVALID)?, chain, size })
-    }
-
-    /// The eye's picture as it was seen from a view.
-    fn shown(&self, view: &xr::View) -> xr::CompositionLayerProjectionView<'_, xr::Vulkan> {
-        let [width, height] = self.size.map(|side| i32::try_from(side).unwrap_or(i32::MAX));
-        let rect = xr::Rect2Di { offset: xr::Offset2Di { x: 0, y: 0 }, extent: xr::Extent2Di { width, height } };
-        let image = xr::SwapchainSubImage::new().swapchain(&self.chain).image_array_index(0).image_rect(rect);
-        xr::CompositionLayerProjectionView::new().pose(view.pose).fov(view.fov).sub_image(image)
-    }
+/// Picture as it was seen from a view, with its depth.
+fn shown<'a>(
+    view: &xr::View,
+    part: xr::SwapchainSubImage<'a, xr::Vulkan>,
+    depth: Option<&'a xr::sys::CompositionLayerDepthInfoKHR>,
+) -> xr::CompositionLayerProjectionView<'a, xr::Vulkan> {
+    let shown = xr::CompositionLayerProjectionView::new().pose(view.pose).fov(view.fov).sub_image(part);
+    let Some(depth) = depth else { return shown };
+    let raw = xr::sys::CompositionLayerProjectionView { next: std::ptr::from_ref(depth).cast(), ..shown.into_raw() };
+    // SAFETY: all that the view points to lives as long as the view may.
+    unsafe { xr::CompositionLayerProjectionView::from_raw(raw) }
 }
 
 /// Eye of the head, from the runtime's view of it. Angles to the left and down are negative.

@@ -279,7 +279,7 @@ mod tests {
         let mut pass = render::display::over(&mut encoder, &target);
         painter.paint(gpu, &mut pass, shapes, (SIZE, PIXELS_PER_POINT));
         drop(pass);
-        Sheet::new(gpu, SIZE, format).fetch_from(gpu, encoder, target.texture()).unwrap()
+        Sheet::new(gpu, SIZE, format).fetch_from(gpu, encoder, target.texture(), 0).unwrap()
     }
 
     /// Rectangle of one colour over the whole of a texture.

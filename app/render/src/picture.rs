@@ -102,11 +102,11 @@ impl Sheet {
     /// # Errors
     /// [`GpuError`] if the device went away or the bytes cannot be read.
     pub fn fetch(&self, gpu: &Gpu, encoder: wgpu::CommandEncoder) -> Result<Vec<u8>, GpuError> {
-        self.fetch_from(gpu, encoder, &self.texture)
+        self.fetch_from(gpu, encoder, &self.texture, 0)
     }
 
-    /// Bytes of a texture of the sheet's size and format that can be copied from, row by row, after the commands of
-    /// `encoder`.
+    /// Bytes of a layer of a texture of the sheet's size and format that can be copied from, row by row, after the
+    /// commands of `encoder`.
     ///
     /// # Errors
     /// [`GpuError`] if the device went away or the bytes cannot be read.
@@ -115,13 +115,15 @@ impl Sheet {
         gpu: &Gpu,
         mut encoder: wgpu::CommandEncoder,
         texture: &wgpu::Texture,
+        layer: u32,
     ) -> Result<Vec<u8>, GpuError> {
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(self.padded_row_bytes), rows_per_image: None };
+        let origin = wgpu::Origin3d { x: 0, y: 0, z: layer };
         encoder.copy_texture_to_buffer(
-            texture.as_image_copy(),
+            wgpu::TexelCopyTextureInfo { origin, ..texture.as_image_copy() },
             wgpu::TexelCopyBufferInfo { buffer: &self.readback, layout },
-            texture.size(),
+            wgpu::Extent3d { depth_or_array_layers: 1, ..texture.size() },
         );
         gpu.queue.submit([encoder.finish()]);
 

@@ -335,6 +335,11 @@ impl SceneRenderer {
         effects.bend() && self.method.shows_bent_screens()
     }
 
+    /// True if the picture of a shot has the depth of what it shows.
+    pub fn has_depth(&self, shot: &Shot) -> bool {
+        shot.outside.is_none() && !(shot.effects.bend() && self.method.maps())
+    }
+
     /// Draws one sample of a picture. One submission has room for one.
     pub fn draw(
         &mut self,

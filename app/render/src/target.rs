@@ -1,6 +1,7 @@
 //! Targets of the renderers: linear radiance with depth.
 
 use crate::gpu::Gpu;
+use crate::hidden_area::HiddenArea;
 
 /// Depth format. Depth is reversed: 1 at the near plane, 0 at infinity.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
@@ -45,6 +46,10 @@ pub struct Radiance {
     pub size: [u32; 2],
     /// Format with which the textures were made.
     pub format: Format,
+    /// True if the depth of what is drawn is kept.
+    pub keeps_depth: bool,
+    /// Part of the picture that nobody sees.
+    pub hidden: Option<HiddenArea>,
     colour: wgpu::TextureView,
     depth: wgpu::TextureView,
     resolved: Option<wgpu::TextureView>,
@@ -58,10 +63,24 @@ impl Radiance {
         Self {
             size,
             format,
+            keeps_depth: false,
+            hidden: None,
             colour: attachment("radiance", format.colour, format.samples),
             depth: attachment("depth", DEPTH_FORMAT, format.samples),
             resolved: (format.samples > 1).then(|| attachment("resolved radiance", format.colour, 1)),
         }
+    }
+
+    /// The same in another size.
+    #[must_use]
+    pub fn resized(&self, gpu: &Gpu, size: [u32; 2]) -> Self {
+        let hidden = self.hidden.clone();
+        Self { keeps_depth: self.keeps_depth, hidden, ..Self::new(gpu, size, self.format) }
+    }
+
+    /// Depth of what was drawn, if it is kept.
+    pub(crate) fn depth(&self) -> &wgpu::TextureView {
+        &self.depth
     }
 
     /// Radiance to read, one sample a pixel.
@@ -71,7 +90,7 @@ impl Radiance {
 
     /// Begins drawing over a cleared target.
     pub fn begin<'encoder>(&self, encoder: &'encoder mut wgpu::CommandEncoder) -> wgpu::RenderPass<'encoder> {
-        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("radiance"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
                 view: &self.colour,
@@ -84,11 +103,18 @@ impl Radiance {
             })],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.depth,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(0.0),
+                    store: if self.keeps_depth { wgpu::StoreOp::Store } else { wgpu::StoreOp::Discard },
+                }),
                 stencil_ops: None,
             }),
             ..Default::default()
-        })
+        });
+        if let Some(hidden) = &self.hidden {
+            hidden.draw(&mut pass);
+        }
+        pass
     }
 }
 

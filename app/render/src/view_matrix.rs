@@ -28,14 +28,9 @@ pub fn shader_view(
     let tangents = camera.tangents(size);
     let (middle, half) = (tangents.middle(), tangents.half());
     let kappa_of_light = motion.kappa();
-    // Reversed depth with an infinite far plane keeps f32's relative precision at every distance. Astern, the
-    // photo-surface comes closer by 1/(2κ), and the near plane with it; what is measured, by 1/γ.
-    let (kappa, closer) = match places {
-        Places::Seen => (kappa_of_light, kappa_of_light),
-        Places::Measured => (1.0, motion.gamma()),
-        Places::Instant => (1.0, 1.0),
-    };
-    let near = NEAR_M / closer;
+    let kappa = if places == Places::Seen { kappa_of_light } else { 1.0 };
+    // Reversed depth with an infinite far plane keeps f32's relative precision at every distance.
+    let near = near_m(motion, places);
     let projection = DMat4::from_cols(
         DVec4::new(1.0 / half.x, 0.0, 0.0, 0.0),
         DVec4::new(0.0, 1.0 / half.y, 0.0, 0.0),
@@ -66,6 +61,18 @@ pub fn shader_view(
         eye: Vec4::ZERO,
         eye_rest: Vec4::ZERO,
     }
+}
+
+/// Near plane of pictures for an eye with this celerity, metres: the reversed depth of what is z before the eye is this
+/// over z.
+pub fn near_m(motion: Celerity, places: Places) -> f64 {
+    // Astern, the photo-surface comes closer by 1/(2κ), and the near plane with it; what is measured, by 1/γ.
+    let closer = match places {
+        Places::Seen => motion.kappa(),
+        Places::Measured => motion.gamma(),
+        Places::Instant => 1.0,
+    };
+    NEAR_M / closer
 }
 
 /// Matrix rounded to f32 for the GPU.

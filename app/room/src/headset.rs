@@ -11,8 +11,8 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 
 /// Distance of the screens from the eyes, metres. Directions alone count.
 const DISTANCE_M: f64 = 1.0;
-/// Eyes of a headset, in the order of its screens.
-const SIDES: [EyeSide; 2] = [EyeSide::Left, EyeSide::Right];
+/// Names of a headset's screens. Those of the second pair lie within the first, and are finer.
+const NAMES: [&str; 4] = ["left", "right", "left-inset", "right-inset"];
 
 /// Eye of a headset, and the part of its surroundings that its picture shows.
 ///
@@ -30,10 +30,12 @@ pub struct HeadsetEye {
 }
 
 impl HeadsetEye {
-    /// Eyes of a headset that has not said anything yet: 64 mm apart, 90° wide and high.
-    pub const USUAL: [Self; 2] = [Self::usual(-1.0), Self::usual(1.0)];
+    /// Views of a headset that has not said anything yet: left and right by turns, 64 mm apart, 90° wide and high.
+    pub fn usual(views: usize) -> Vec<Self> {
+        (0..views).map(|view| Self::usual_of(if view % 2 == 0 { -1.0 } else { 1.0 })).collect()
+    }
 
-    const fn usual(side: f64) -> Self {
+    fn usual_of(side: f64) -> Self {
         Self {
             position_m: DVec3::new(0.5 * EYE_SEPARATION_M * side, 0.0, 0.0),
             orientation: DQuat::IDENTITY,
@@ -44,11 +46,13 @@ impl HeadsetEye {
 }
 
 impl Display {
-    /// Display of a headset whose left and right picture have these sizes in pixels: a window for each eye.
-    pub fn headset(name: &str, eyes: &[HeadsetEye; 2], sizes: [[u32; 2]; 2]) -> Self {
+    /// Display of a headset whose pictures have these sizes in pixels, left and right by turns: a window for each.
+    pub fn headset(name: &str, eyes: &[HeadsetEye], sizes: &[[u32; 2]]) -> Self {
         let viewer = Viewer { turns_pictures: true, ..Viewer::default() };
-        let screen = |side: EyeSide| Screen {
-            name: side.name().to_owned(),
+        let views: Vec<_> =
+            sizes.iter().enumerate().map(|(view, size)| (view, NAMES[view % NAMES.len()], *size)).collect();
+        let screen = |&(_, name, _): &(usize, &str, [u32; 2])| Screen {
+            name: name.to_owned(),
             surface: ScreenSurface::Flat(FlatSurface {
                 lower_left: DVec3::new(-1.0, -1.0, -1.0),
                 right: 2.0 * DVec3::X,
@@ -56,8 +60,8 @@ impl Display {
             }),
             reflection: Reflection::default(),
         };
-        let window = |(side, size): (EyeSide, [u32; 2])| WindowPlace {
-            name: side.name().to_owned(),
+        let window = |&(_, name, size): &(usize, &str, [u32; 2])| WindowPlace {
+            name: name.to_owned(),
             monitor: None,
             position: None,
             size,
@@ -65,12 +69,12 @@ impl Display {
             combine: Combine::None,
             swap_eyes: false,
         };
-        let channel = |(number, side): (usize, EyeSide)| Channel {
-            name: side.name().to_owned(),
-            screen: number,
-            eye: side,
-            window: number,
-            viewport: [0, 0, sizes[number][0], sizes[number][1]],
+        let channel = |&(view, name, size): &(usize, &str, [u32; 2])| Channel {
+            name: name.to_owned(),
+            screen: view,
+            eye: side(view),
+            window: view,
+            viewport: [0, 0, size[0], size[1]],
             part: ChannelPart::default(),
             warp: None,
             projector: None,
@@ -80,10 +84,10 @@ impl Display {
         let mut display = Self {
             name: name.to_owned(),
             viewer,
-            screens: SIDES.map(screen).to_vec(),
+            screens: views.iter().map(screen).collect(),
             projectors: Vec::new(),
-            windows: SIDES.into_iter().zip(sizes).map(window).collect(),
-            channels: SIDES.into_iter().enumerate().map(channel).collect(),
+            windows: views.iter().map(window).collect(),
+            channels: views.iter().map(channel).collect(),
             set_up: toml::Table::new(),
             notices: Vec::new(),
         };
@@ -92,12 +96,14 @@ impl Display {
     }
 
     /// Puts the screens of a [headset](Self::headset) before its eyes, for a head at this place in the room.
-    pub fn follow_head(&mut self, eyes: &[HeadsetEye; 2], head_m: DVec3) {
-        self.viewer.eye_separation_m = eyes[1].position_m.x - eyes[0].position_m.x;
-        for ((screen, side), eye) in self.screens.iter_mut().zip(SIDES).zip(eyes) {
+    pub fn follow_head(&mut self, eyes: &[HeadsetEye], head_m: DVec3) {
+        if let [left, right, ..] = eyes {
+            self.viewer.eye_separation_m = right.position_m.x - left.position_m.x;
+        }
+        for ((view, screen), eye) in self.screens.iter_mut().enumerate().zip(eyes) {
             let HeadsetEye { orientation, low, high, .. } = eye;
             // The display looks ahead; its pictures are turned with the head.
-            let place_m = self.viewer.eye_m(side, head_m, DMat3::IDENTITY);
+            let place_m = self.viewer.eye_m(side(view), head_m, DMat3::IDENTITY);
             let size = (*high - *low) * DISTANCE_M;
             screen.surface = ScreenSurface::Flat(FlatSurface {
                 lower_left: place_m + *orientation * (DVec3::new(low.x, low.y, -1.0) * DISTANCE_M),
@@ -106,6 +112,11 @@ impl Display {
             });
         }
     }
+}
+
+/// Side of the eye that a view of a headset is for.
+fn side(view: usize) -> EyeSide {
+    if view.is_multiple_of(2) { EyeSide::Left } else { EyeSide::Right }
 }
 
 #[cfg(test)]
@@ -124,7 +135,7 @@ mod tests {
             high: DVec2::new(0.95 - 0.1 * side, 1.2),
         };
         let eyes = [eye(-1.0, 0.1), eye(1.0, -0.1)];
-        let mut display = Display::headset("headset", &eyes, [[320, 240]; 2]);
+        let mut display = Display::headset("headset", &eyes, &[[320, 240]; 2]);
         for head_m in [display.viewer.head_m, DVec3::new(-0.7, 1.1, 2.0)] {
             display.follow_head(&eyes, head_m);
             for (channel, eye) in display.channels.iter().zip(&eyes) {

@@ -56,7 +56,7 @@ impl FilmTitles {
             }
         });
         let encoder = gpu.device.create_command_encoder(&Default::default());
-        let drawn = self.readback.fetch_from(gpu, encoder, self.sheet.picture().texture())?;
+        let drawn = self.readback.fetch_from(gpu, encoder, self.sheet.picture().texture(), 0)?;
         for (under, over) in picture.pixels_mut().zip(drawn.chunks_exact(4)) {
             let through = 255 - u32::from(over[3]);
             for (under, over) in under.0.iter_mut().zip(&over[..3]) {

@@ -57,7 +57,7 @@ impl RideRoom {
         let display_name = options.display.clone().or(tracked);
         let budget = options.world.reading.budget();
         let named = |name: &str| match name {
-            HEADSET => Ok(Display::headset(name, &HeadsetEye::USUAL, [[1024; 2]; 2])),
+            HEADSET => Ok(Display::headset(name, &HeadsetEye::usual(2), &[[1024; 2]; 2])),
             name => Display::named_or_file_within(name, &budget),
         };
         let display = display_name.as_deref().map(named).transpose()?;

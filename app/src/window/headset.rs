@@ -4,7 +4,7 @@ use super::surface_interface::SurfaceInterface;
 use crate::canvas::Canvas;
 use crate::error::Error;
 use crate::output::say::tell;
-use command::HEADSET;
+use command::{FrameRate, HEADSET};
 use egui::load::SizedTexture;
 use egui::{Color32, LayerId, Pos2, Rect, Ui, Vec2};
 use headset::{Headset, HeadsetDevice, HeadsetError};
@@ -17,6 +17,7 @@ use render::display::Development;
 use render::target::texture;
 use room::{Display, HeadsetEye};
 use std::time::Instant;
+use walls::Walls;
 
 /// Headset that is worn, or was.
 pub(super) struct Worn {
@@ -35,17 +36,25 @@ pub(super) struct HeadsetViewer {
     began: Instant,
 }
 
-/// Reaches the headset. Returns the device that its runtime wants, and the display of its eyes.
+/// Reaches the headset, with the frame rate that was asked for. Returns the device that its runtime wants, and the
+/// display of its eyes.
 ///
 /// # Errors
 /// What is missing, with what to do about it.
-pub(super) fn wear() -> Result<(Gpu, Worn, Display), Error> {
+pub(super) fn wear(frame_rate: Option<FrameRate>) -> Result<(Gpu, Worn, Display), Error> {
     let runtime = XrRuntime::new(XrUse::Pictures).map_err(HeadsetError::from)?;
     let device = HeadsetDevice::open(&runtime)?;
     let session = Headset::new(runtime, &device)?;
     let (headset, runtime) = session.names();
     tell(format_args!("headset: {headset}, by {runtime}"));
-    let display = Display::headset(HEADSET, &HeadsetEye::USUAL, session.sizes());
+    if let Some(FrameRate::Held(wanted)) = frame_rate {
+        match session.choose_rate(wanted)? {
+            Some(rate) => tell(format_args!("headset: {rate} frames per second")),
+            None => tell(format_args!("headset: {runtime} sets its frame rate by itself; --frame-rate is left out")),
+        }
+    }
+    let sizes = session.sizes();
+    let display = Display::headset(HEADSET, &HeadsetEye::usual(sizes.len()), sizes);
     let format = session.format();
     let viewer = HeadsetViewer::new(&display)?;
     Ok((device.gpu, Worn { session: Some(session), mirror: None, format, viewer }, display))
@@ -72,6 +81,16 @@ impl Worn {
     /// State of the head of whoever wears the headset, after a report.
     pub(super) fn follow(&mut self, report: &[u8]) -> HeadState {
         self.viewer.follow(report)
+    }
+
+    /// Channels for its views, which were not drawn yet: without what no lens shows, and with the depth that the runtime
+    /// takes.
+    pub(super) fn fit(&self, gpu: &Gpu, walls: &mut Walls) {
+        let Some(session) = &self.session else { return };
+        let views = session.sizes().len();
+        walls.headset = Some(HeadsetEye::usual(views));
+        (0..views).for_each(|view| walls.hide(gpu, view, &session.hidden(view)));
+        walls.keep_depth(gpu);
     }
 
     /// Format in which its pictures are written.
@@ -126,7 +145,7 @@ mod tests {
 
     #[test]
     fn a_viewer_begins_in_the_seat_and_looks_round_from_there() {
-        let display = Display::headset(HEADSET, &HeadsetEye::USUAL, [[64; 2]; 2]);
+        let display = Display::headset(HEADSET, &HeadsetEye::usual(2), &[[64; 2]; 2]);
         let mut viewer = HeadsetViewer::new(&display).unwrap();
         let quarter = DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2);
         let first = viewer.follow(&report(0, [3.0, 1.2, -5.0], quarter));

@@ -28,7 +28,7 @@ impl Open {
                     self.ride.hold_rate(turn.period.as_secs_f64().recip());
                 }
                 if let Some(walls) = self.canvas.walls_mut() {
-                    walls.headset = Some(turn.eyes);
+                    walls.headset = Some(turn.eyes.clone());
                 }
                 Some(turn)
             }
@@ -45,14 +45,16 @@ impl Open {
     /// A lost graphics device.
     pub(super) fn show_in_headset(&mut self, turn: &HeadsetTurn, development: &Development) -> Result<(), Error> {
         let Some(session) = self.worn.as_mut().and_then(|worn| worn.session.as_mut()) else { return Ok(()) };
-        let (gpu, canvas) = (&self.gpu, &mut self.canvas);
-        let shown = session.show(turn, |eye, view| {
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            canvas.show(gpu, &mut encoder, eye, development, view, [0, 0]);
-            gpu.queue.submit([encoder.finish()]);
-        });
-        if let Err(error) = shown {
-            self.lose_headset(&error);
+        let Some(walls) = self.canvas.walls_mut() else { return Ok(()) };
+        let gpu = &self.gpu;
+        match session.show(turn, |pictures| pictures.show(gpu, walls, development)) {
+            Ok(()) => {
+                self.ride.times.note(Phrase::StagePose, turn.asked.elapsed());
+                if let Some(lead) = turn.lead {
+                    self.ride.times.note(Phrase::StageSeen, lead);
+                }
+            }
+            Err(error) => self.lose_headset(&error),
         }
         Ok(self.gpu.lost()?)
     }

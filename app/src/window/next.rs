@@ -125,7 +125,7 @@ impl Open {
         }
         let (renderer, took) = ready?;
         drop(self.ride);
-        self.ride = RideInProgress::new(renderer, begin()?, options.frame_rate.governor());
+        self.ride = RideInProgress::new(renderer, begin()?, options.frame_rate.unwrap_or_default().governor());
         self.ride.begin(&mut self.canvas, took);
         let kept = KEPT.map(|setting| (setting, self.presentation.text(setting)));
         for (setting, text) in kept {

@@ -26,7 +26,7 @@ use render::choice::Choice;
 use render::picture::largest_side;
 use render::target::{Format, texture};
 use render::{Gpu, GpuError, SceneRenderer, descriptor};
-use room::{HeadsetEye, WindowPlace};
+use room::WindowPlace;
 use scene::Scene;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -121,7 +121,7 @@ impl Open {
         let (device, worn) = match room.is_headset() {
             false => (None, None),
             true => {
-                let (gpu, worn, eyes) = wear()?;
+                let (gpu, worn, eyes) = wear(options.frame_rate)?;
                 display = Some(eyes);
                 (Some(gpu), Some(worn))
             }
@@ -201,7 +201,9 @@ impl Open {
                 let quality = Quality { format, samples: 1, density: 1.0, smooth: true };
                 let written = worn.as_ref().map_or(screen_format, Worn::format);
                 let mut walls = Walls::new(&gpu, display, quality, written);
-                walls.headset = worn.as_ref().map(|_| HeadsetEye::USUAL);
+                if let Some(worn) = &worn {
+                    worn.fit(&gpu, &mut walls);
+                }
                 if options.preview && worn.is_none() {
                     Canvas::preview(&gpu, walls, screen_format)
                 } else {
@@ -227,7 +229,7 @@ impl Open {
         let unseen = unseen(&gpu, &surfaces, &canvas);
         let took = canvas.warm_up(&gpu, &mut renderer, &start, shown, &unseen)?;
         spinner.finish_and_clear();
-        let mut ride = RideInProgress::new(renderer, begin()?, options.frame_rate.governor());
+        let mut ride = RideInProgress::new(renderer, begin()?, options.frame_rate.unwrap_or_default().governor());
         ride.begin(&mut canvas, took);
         let operator = options.operator.then(|| Operator::open(events, &gpu, fresh.language)).transpose()?;
         Ok(Self {

@@ -29,6 +29,7 @@ mod gains;
 mod governed;
 mod governor;
 mod head;
+mod headset;
 mod in_step;
 mod picture;
 mod picture_shares;

@@ -11,7 +11,7 @@ use glam::{DMat3, DQuat};
 use render::certainty::Certainty;
 use render::display::{Accumulator, Developer, Pass, clear};
 use render::target::{Radiance, texture};
-use render::{BentScreen, Gpu, SceneRenderer};
+use render::{BentScreen, Gpu, HiddenArea, SceneRenderer, near_m};
 use room::{Channel, Display, EyeBehind, frustum};
 use view::{Camera, Effects, Field, PixelSample, Shot, Stored, Tangents};
 
@@ -30,6 +30,8 @@ pub struct ChannelPicture {
     pub developed: Option<wgpu::TextureView>,
     /// Scale and kind of the stored light.
     pub stored: Stored,
+    /// Near plane of the picture drawn last, metres, if it has depth.
+    near_m: Option<f64>,
 }
 
 /// Textures that a channel is drawn into.
@@ -83,7 +85,8 @@ impl ChannelPicture {
             None => PictureTarget::Curved(Box::new(Curved::new(gpu, display, channel, quality.format))),
         };
         let sum = (quality.samples > 1).then(|| passes.accumulator(gpu, size));
-        let mut picture = Self { target, enlarged: None, sum, gains: None, developed: None, stored: Stored::UNSHIFTED };
+        let mut picture =
+            Self { target, enlarged: None, sum, gains: None, developed: None, stored: Stored::UNSHIFTED, near_m: None };
         picture.update_gains(gpu, display, channel);
         picture
     }
@@ -101,13 +104,35 @@ impl ChannelPicture {
         let size = part(channel.size(), share);
         match &mut self.target {
             PictureTarget::Flat(target) if target.size == size => {}
-            PictureTarget::Flat(target) => **target = Radiance::new(gpu, size, target.format),
+            PictureTarget::Flat(target) => **target = target.resized(gpu, size),
             PictureTarget::Curved(curved) => curved.fit(gpu, display, channel, size),
         }
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
         let made = |format| texture(gpu, "enlarged light", channel.size(), format, 1, usage);
         let format = self.drawn().texture().format();
         self.enlarged = (size != channel.size()).then(|| self.enlarged.take().unwrap_or_else(|| made(format)));
+    }
+
+    /// Keeps the depth of flat pictures from now on.
+    pub fn keep_depth(&mut self) {
+        if let PictureTarget::Flat(target) = &mut self.target {
+            target.keeps_depth = true;
+        }
+    }
+
+    /// Draws nothing in these triangles of a flat picture from now on: tangents to the right and up, three by three.
+    pub fn hide(&mut self, gpu: &Gpu, corners: &[[f32; 2]]) {
+        if let PictureTarget::Flat(target) = &mut self.target {
+            target.hidden = (!corners.is_empty()).then(|| HiddenArea::new(gpu, target.format, corners));
+        }
+    }
+
+    /// Target of a flat picture with the depth of what was drawn last, and its near plane, metres.
+    pub fn depth(&self) -> Option<(&Radiance, f64)> {
+        match &self.target {
+            PictureTarget::Flat(target) if target.keeps_depth => Some((target, self.near_m?)),
+            _ => None,
+        }
     }
 
     /// Light as it was drawn.
@@ -172,6 +197,8 @@ impl ChannelPicture {
             return Certainty::default();
         };
         self.stored = renderer.stored(first);
+        let near_m = || near_m(first.observer.celerity, first.effects.places);
+        self.near_m = renderer.has_depth(first).then(near_m);
 
         if let Some(sum) = &mut self.sum {
             sum.restart();
@@ -238,6 +265,9 @@ impl ChannelPicture {
             PictureTarget::Flat(target) => {
                 let flat = channel.flat(context.display).expect("its screen is flat");
                 let frustum = frustum(&flat, place_m)?;
+                if let Some(hidden) = &target.hidden {
+                    hidden.place(context.gpu, &frustum.tangents);
+                }
                 Ok(vec![(context.shot(frustum.room_from_eye, frustum.tangents), target.size)])
             }
             PictureTarget::Curved(curved) => {

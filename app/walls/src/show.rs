@@ -134,10 +134,8 @@ impl Walls {
         viewport: [u32; 4],
         over: bool,
     ) {
-        // The common exposure is made for the scale with which the first channel stores its light.
-        let first = self.pictures.first().map_or(1.0, |picture| picture.stored.scale);
         let picture = &self.pictures[channel];
-        let exposure = (first / picture.stored.scale) as f32;
+        let exposure = self.exposure(channel);
         let projector = self.display.channels[channel].projector(&self.display);
         let gamma = projector.and_then(|projector| projector.gamma);
         let part = DevelopedPart { viewport, over, exposure, gains: picture.gains.as_ref(), gamma };
@@ -154,8 +152,15 @@ impl Walls {
         }
     }
 
+    /// Factor of a channel's light besides the common exposure, which is made for the scale with which the first channel
+    /// stores its light.
+    pub(crate) fn exposure(&self, channel: usize) -> f32 {
+        let first = self.pictures.first().map_or(1.0, |picture| picture.stored.scale);
+        (first / self.pictures[channel].stored.scale) as f32
+    }
+
     /// Shows the sheets of the room over a channel's picture, as the eye sees them whose light was drawn last.
-    fn show_sheets(
+    pub(crate) fn show_sheets(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,

@@ -13,7 +13,7 @@ use crate::sheet_passes::SheetPasses;
 use crate::test_grid::TestGrids;
 use render::certainty::Certainty;
 use render::display::{Adaptation, Developer, Development, LINEAR_FORMAT, Pass, Seen, resample};
-use render::{Gpu, GpuError, Pending, SceneRenderer};
+use render::{Gpu, GpuError, Pending, SceneDepth, SceneRenderer};
 use room::{Channel, Display, EyeBehind, EyeSide, HeadsetEye, Warp, WindowPlace};
 use std::time::Duration;
 use view::Effects;
@@ -80,7 +80,9 @@ pub struct Walls {
     pub(crate) rests: bool,
     pub(crate) adaptation: Adaptation,
     /// Eyes of the headset whose display this is: its screens are put before them for each picture.
-    pub headset: Option<[HeadsetEye; 2]>,
+    pub headset: Option<Vec<HeadsetEye>>,
+    /// Pass that hands the depth of pictures on, once it has been asked for.
+    pub(crate) scene_depth: Option<SceneDepth>,
     /// Sheets that float in the room, the undermost first.
     pub sheets: Vec<RoomSheet>,
     pub(crate) sheet_passes: SheetPasses,
@@ -108,6 +110,7 @@ impl Walls {
             rests: false,
             adaptation: Adaptation::new(gpu),
             headset: None,
+            scene_depth: None,
             sheets: Vec::new(),
             sheet_passes: SheetPasses::default(),
             grids: None,

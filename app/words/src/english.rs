@@ -308,6 +308,8 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::StageTransform => "transform",
         Phrase::StageDraw => "draw",
         Phrase::StageShow => "show",
+        Phrase::StagePose => "pose to picture",
+        Phrase::StageSeen => "pose to light",
         Phrase::CornersNeedRoom => {
             "corners can be moved only in the windows of a room: start with --display, without --preview"
         }

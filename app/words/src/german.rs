@@ -325,6 +325,8 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::StageTransform => "Umrechnung",
         Phrase::StageDraw => "Zeichnen",
         Phrase::StageShow => "Anzeige",
+        Phrase::StagePose => "Pose bis Bild",
+        Phrase::StageSeen => "Pose bis Licht",
         Phrase::CornersNeedRoom => {
             "Ecken lassen sich nur in den Fenstern eines Raums verschieben: mit --display und ohne --preview starten"
         }

@@ -549,6 +549,10 @@ phrases! {
     StageDraw,
     /// Stage of a frame: windows.
     StageShow,
+    /// Time from a headset's pose to the picture that was handed over for it.
+    StagePose,
+    /// Time from a headset's pose to the moment at which its picture is seen.
+    StageSeen,
     /// Notice: a flat picture has no corners to move.
     CornersNeedRoom,
     /// Corner that keys move; {0}: channel, {1}: corner, {2} and {3}: place, pixels.

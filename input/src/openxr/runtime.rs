@@ -33,6 +33,15 @@ pub struct XrRuntime {
     pub instance: xr::Instance,
     /// Headset.
     pub system: xr::SystemId,
+    /// Kind of views: one for each eye, or two for each where the headset wants that.
+    pub views: xr::ViewConfigurationType,
+    /// True if the runtime takes the depth of pictures.
+    pub takes_depth: bool,
+    /// True if the runtime knows which parts of its pictures no lens shows.
+    pub knows_masks: bool,
+    /// True if the runtime can be asked for a frame rate.
+    pub knows_rates: bool,
+    knows_time: bool,
     name: String,
 }
 
@@ -74,6 +83,8 @@ impl XrRuntime {
                 extensions.khr_vulkan_enable2 = true;
                 extensions.khr_composition_layer_depth = there.khr_composition_layer_depth;
                 extensions.khr_visibility_mask = there.khr_visibility_mask;
+                extensions.fb_display_refresh_rate = there.fb_display_refresh_rate;
+                extensions.varjo_quad_views = there.varjo_quad_views;
                 [(there.khr_vulkan_enable2, "XR_KHR_vulkan_enable2")].to_vec()
             }
         };
@@ -94,7 +105,24 @@ impl XrRuntime {
             }
             other => XrFault::Refused(name.clone(), "the headset", one_line(&other.to_string())),
         })?;
-        Ok(Self { instance, system, name })
+        let foveated = xr::ViewConfigurationType::PRIMARY_STEREO_WITH_FOVEATED_INSET;
+        let known = instance.enumerate_view_configurations(system).unwrap_or_default();
+        let has_insets = extensions.varjo_quad_views && known.contains(&foveated);
+        Ok(Self {
+            instance,
+            system,
+            views: if has_insets { foveated } else { xr::ViewConfigurationType::PRIMARY_STEREO },
+            takes_depth: extensions.khr_composition_layer_depth,
+            knows_masks: extensions.khr_visibility_mask,
+            knows_rates: extensions.fb_display_refresh_rate,
+            knows_time: extensions.khr_convert_timespec_time,
+            name,
+        })
+    }
+
+    /// Present time of the runtime's clock, if it can be read.
+    pub fn now(&self) -> Option<xr::Time> {
+        if self.knows_time { self.instance.now().ok() } else { None }
     }
 
     /// Name that the runtime gives itself.
@@ -180,9 +208,7 @@ impl XrRuntime {
             match event {
                 xr::Event::SessionStateChanged(change) => match change.state() {
                     xr::SessionState::READY => {
-                        session
-                            .begin(xr::ViewConfigurationType::PRIMARY_STEREO)
-                            .map_err(self.refused("to begin the session"))?;
+                        session.begin(self.views).map_err(self.refused("to begin the session"))?;
                         *state = XrState::Running { focused: false };
                     }
                     xr::SessionState::STOPPING => {

@@ -1,14 +1,16 @@
-//! Law: each pixel of the picture that the runtime is handed for an eye shows what that eye sees in the direction of
-//! the pixel, at rest, near light, and while the head moves in the vehicle; by both methods.
+//! Laws: each pixel of the picture that the runtime is handed for an eye shows what that eye sees in the direction of
+//! the pixel, at rest, near light, and while the head moves in the vehicle, by both methods, in one pass for both eyes
+//! and in one for each; what no lens shows is black; and the depth of each pixel is the distance at which the eye sees
+//! it.
 //!
 //! Directions come from the runtime's own angles, by plain geometry here; they are taken to the world by multiplied-out
 //! matrices, and meet boxes one by one. A wrong program exchanges the eyes, mirrors an angle, counts the head as at
-//! rest, encodes twice, or hands over the picture of another moment.
+//! rest, encodes twice, draws both eyes into one layer, takes the distance in the world for that in the eye's frame, or
+//! hands over the picture of another moment.
 
 use built_in::lattice::Lattice;
 use glam::{DMat3, DQuat, DVec2, DVec3};
-use headset::{Headset, HeadsetDevice, HeadsetTurn};
-use image::RgbaImage;
+use headset::{DEPTH_NEAR_M, Headset, HeadsetDevice, HeadsetTurn};
 use input::openxr::{XrRuntime, XrUse};
 use physics::worldline::{Thrust, WorldlineState};
 use physics::{Celerity, Event};
@@ -19,6 +21,7 @@ use render::{Gpu, SceneRenderer};
 use room::{Display, HeadsetEye};
 use scene::Scene;
 use scene::refine::refine;
+use std::collections::HashSet;
 use std::time::{Duration, Instant};
 use system_tests::exact::Boxes;
 use system_tests::occupants::EyeInWorld;
@@ -32,6 +35,10 @@ const LATTICE: Lattice = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 };
 const EDGE_M: f32 = 0.09;
 /// Largest share of pixels that may differ.
 const SHARE_AT_MOST: f64 = 0.005;
+/// The same for depth where edges are smoothed.
+const SMOOTHED_AT_MOST: f64 = 0.05;
+/// Largest error of a depth, as a share of it: edges are bent between their ends.
+const DEPTH_ERROR: f64 = 0.005;
 /// Time in which a session begins.
 const PATIENCE: Duration = Duration::from_secs(20);
 
@@ -41,7 +48,7 @@ fn next(headset: &mut Headset) -> HeadsetTurn {
     while began.elapsed() < PATIENCE {
         match headset.wait().unwrap() {
             Some(turn) if turn.is_seen => return turn,
-            Some(turn) => headset.show(&turn, |_, _| unreachable!("nothing is seen")).unwrap(),
+            Some(turn) => headset.show(&turn, |_| unreachable!("nothing is seen")).unwrap(),
             None => {}
         }
     }
@@ -67,78 +74,163 @@ fn head(turn: &HeadsetTurn, celerity: DVec3, turn_rate: DVec3) -> RoomHead {
     }
 }
 
-/// Exact colour at a place of an eye's picture, pixels.
-fn exact(boxes: &Boxes, occupant: &Occupant, (eye, size): (&HeadsetEye, [u32; 2]), at: DVec2) -> [u8; 4] {
-    let share = at / DVec2::new(size[0].into(), size[1].into());
-    let tangents = DVec2::new(share.x, 1.0 - share.y) * (eye.high - eye.low) + eye.low;
-    let of_head = eye.orientation * DVec3::new(tangents.x, tangents.y, -1.0);
-    let in_world = EyeInWorld::of(occupant, eye.position_m.x);
-    boxes.first(in_world.place, in_world.origin(occupant.head.room_from_head * of_head))
+/// One eye's picture, with what is to be seen in it.
+struct EyePicture<'a> {
+    boxes: &'a Boxes,
+    occupant: &'a Occupant,
+    eye: &'a HeadsetEye,
+    /// Triangles that no lens shows, as tangents.
+    hidden: &'a [[f32; 2]],
+    size: [u32; 2],
 }
 
-/// Picture that was handed over, read back and left as a target.
-fn read_back(gpu: &Gpu, view: &wgpu::TextureView) -> RgbaImage {
+impl EyePicture<'_> {
+    /// Tangents to the right and up of the middle of a pixel.
+    fn tangents(&self, [x, y]: [u32; 2]) -> DVec2 {
+        let share = (DVec2::new(x.into(), y.into()) + 0.5) / DVec2::new(self.size[0].into(), self.size[1].into());
+        DVec2::new(share.x, 1.0 - share.y) * (self.eye.high - self.eye.low) + self.eye.low
+    }
+
+    fn is_hidden(&self, tangents: DVec2) -> bool {
+        self.hidden.chunks_exact(3).any(|of| {
+            let corners = [0, 1, 2].map(|corner| DVec2::new(of[corner][0].into(), of[corner][1].into()));
+            let side = |a: usize, b: usize| (corners[b] - corners[a]).perp_dot(tangents - corners[a]);
+            let sides = [side(0, 1), side(1, 2), side(2, 0)];
+            sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0)
+        })
+    }
+
+    /// Eye in the world, direction in the room's axes, and direction in the world.
+    fn ray(&self, tangents: DVec2) -> (EyeInWorld, DVec3, DVec3) {
+        let of_head = self.eye.orientation * DVec3::new(tangents.x, tangents.y, -1.0);
+        let in_world = EyeInWorld::of(self.occupant, self.eye.position_m.x);
+        let seen = self.occupant.head.room_from_head * of_head;
+        let origin = in_world.origin(seen);
+        (in_world, seen, origin)
+    }
+
+    /// Exact colour of a pixel.
+    fn colour(&self, pixel: [u32; 2]) -> [u8; 4] {
+        let tangents = self.tangents(pixel);
+        if self.is_hidden(tangents) {
+            return [0, 0, 0, 255];
+        }
+        let (in_world, _, origin) = self.ray(tangents);
+        self.boxes.first(in_world.place, origin)
+    }
+
+    /// Exact depth of a pixel: its apparent place before the eye, metres; infinite for the sky.
+    fn before_the_eye_m(&self, pixel: [u32; 2]) -> f64 {
+        let tangents = self.tangents(pixel);
+        let (in_world, seen, origin) = self.ray(tangents);
+        let Some(distance) = self.boxes.distance(in_world.place, origin) else { return f64::INFINITY };
+        in_world.apparent_m(seen, distance) / tangents.extend(-1.0).length()
+    }
+}
+
+/// Layer of a picture that was handed over, read back and left as a target.
+fn read_back(gpu: &Gpu, view: &wgpu::TextureView, layer: usize) -> Vec<u8> {
     let texture = view.texture();
-    let [width, height] = [texture.width(), texture.height()];
-    let sheet = Sheet::new(gpu, [width, height], texture.format());
+    let sheet = Sheet::new(gpu, [texture.width(), texture.height()], texture.format());
     let encoder = gpu.device.create_command_encoder(&Default::default());
-    let mut bytes = sheet.fetch_from(gpu, encoder, texture).unwrap();
+    let mut bytes = sheet.fetch_from(gpu, encoder, texture, layer as u32).unwrap();
     if texture.format().remove_srgb_suffix() == wgpu::TextureFormat::Bgra8Unorm {
         bytes.chunks_exact_mut(4).for_each(|pixel| pixel.swap(0, 2));
     }
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    drop(render::display::over(&mut encoder, view));
+    if texture.format().is_depth_stencil_format() {
+        drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        }));
+    } else {
+        drop(render::display::over(&mut encoder, view));
+    }
     gpu.queue.submit([encoder.finish()]);
-    RgbaImage::from_raw(width, height, bytes).unwrap()
+    bytes
 }
 
-fn assert_pictures(headset: &mut Headset, gpu: &Gpu, method: Dial, scene: &Scene) {
+/// Ways in which a scene is drawn for a headset.
+#[derive(Clone, Copy)]
+struct Way {
+    method: Dial,
+    format: Format,
+    in_one_pass: bool,
+}
+
+fn assert_pictures(headset: &mut Headset, gpu: &Gpu, way: Way, scene: &Scene) {
     let boxes = Boxes::of(&LATTICE, BACKGROUND);
     let fast = DVec3::new(-0.6, 0.2, -1.0).normalize() * (0.9 / (1.0 - 0.81_f64).sqrt());
     let moving = (DVec3::new(0.5, -0.1, 0.3), DVec3::new(0.5, 3.0, -0.4));
     let still = (DVec3::ZERO, DVec3::ZERO);
-    let format = Format::exact(gpu);
+    let Way { method, format, in_one_pass } = way;
+    headset.in_one_pass = in_one_pass;
     let mut renderer =
         SceneRenderer::new(gpu, scene.clone(), format, Some(BACKGROUND), method, Occasion::Still).unwrap();
     let quality = Quality { format, samples: 1, density: 1.0, smooth: false };
     let development = Development { gamut: Gamut::Clamp, ..Default::default() };
     let turn = next(headset);
     let display = Display::headset("headset", &turn.eyes, headset.sizes());
-    headset.show(&turn, |_, _| {}).unwrap();
+    headset.show(&turn, |_| false).unwrap();
     let mut walls = Walls::new(gpu, display, quality, headset.format());
+    let hidden: Vec<_> = (0..headset.sizes().len()).map(|view| headset.hidden(view)).collect();
+    hidden.iter().enumerate().for_each(|(view, corners)| walls.hide(gpu, view, corners));
+    walls.keep_depth(gpu);
     for (celerity, (walks, turns)) in [(DVec3::ZERO, still), (fast, still), (fast, moving)] {
         let turn = next(headset);
         let head = head(&turn, walks, turns);
         let occupant = Occupant { vehicle: vehicle(celerity), thrust: Thrust::default(), head };
-        walls.headset = Some(turn.eyes);
+        walls.headset = Some(turn.eyes.clone());
         let submitted = walls.submit(gpu, &mut renderer, &occupant, Effects::GEOMETRY).unwrap();
         walls.draw(gpu, &mut renderer, submitted).unwrap();
         walls.adapt(gpu, &development, None);
-        let mut pictures = Vec::new();
+        let (mut pictures, mut depths) = (Vec::new(), Vec::new());
         headset
-            .show(&turn, |eye, view| {
-                let mut encoder = gpu.device.create_command_encoder(&Default::default());
-                walls.show_window(gpu, &mut encoder, eye, &development, view, [0, 0]);
-                gpu.queue.submit([encoder.finish()]);
-                pictures.push(read_back(gpu, view));
+            .show(&turn, |lent| {
+                assert_eq!(lent.both.is_some(), in_one_pass);
+                let has_depth = lent.show(gpu, &mut walls, &development);
+                assert_eq!(has_depth, method == AS_GIVEN, "the runtime takes the depth of polygons");
+                pictures.extend(lent.layers.iter().enumerate().map(|(layer, view)| read_back(gpu, view, layer)));
+                let of = lent.depths.iter().enumerate().filter(|_| has_depth);
+                depths.extend(of.map(|(layer, view)| read_back(gpu, view, layer)));
+                has_depth
             })
             .unwrap();
-        for (picture, eye) in pictures.iter().zip(&turn.eyes) {
-            let size = [picture.width(), picture.height()];
-            let (mut wrong, mut colours) = (0_u32, std::collections::HashSet::new());
-            for (x, y, pixel) in picture.enumerate_pixels() {
-                let middle = DVec2::new(x.into(), y.into()) + 0.5;
-                let expected = exact(&boxes, &occupant, (eye, size), middle);
-                wrong += u32::from(pixel.0 != expected);
-                colours.insert(pixel.0);
-            }
-            let share = f64::from(wrong) / f64::from(size[0] * size[1]);
-            let what = format!("{method}, u = {:.2}, head u = {:.2}", celerity.length(), walks.length());
-            println!("{what}, eye at {:+.4} m: {share:.5} differ", eye.position_m.x);
-            assert!(share <= SHARE_AT_MOST, "{what}: {share} of the pixels differ");
-            assert!(colours.len() >= 4, "{} colours are too few to compare", colours.len());
-        }
         assert!(pictures[0] != pictures[1], "both eyes see the same");
+        let what = format!(
+            "{method}, {} pass, u = {:.2}, head u = {:.2}",
+            if in_one_pass { "one" } else { "a" },
+            celerity.length(),
+            walks.length()
+        );
+        for (number, eye) in turn.eyes.iter().enumerate() {
+            let size = headset.sizes()[number];
+            let seen = EyePicture { boxes: &boxes, occupant: &occupant, eye, hidden: &hidden[number], size };
+            let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
+            let all = f64::from(size[0] * size[1]);
+            let wrong =
+                pixels.clone().zip(pictures[number].chunks_exact(4)).filter(|(at, pixel)| seen.colour(*at) != **pixel);
+            let share = wrong.count() as f64 / all;
+            let colours: HashSet<&[u8]> = pictures[number].chunks_exact(4).collect();
+            println!("{what}, eye at {:+.4} m: {share:.5} differ", eye.position_m.x);
+            // Smoothed edges have colours of their own.
+            assert!(share <= SHARE_AT_MOST || format.samples > 1, "{what}: {share} of the pixels differ");
+            assert!(colours.len() >= 4, "{} colours are too few to compare", colours.len());
+            let Some(depth) = depths.get(number) else { continue };
+            let found = depth.chunks_exact(4).map(|bytes| f64::from(f32::from_le_bytes(bytes.try_into().unwrap())));
+            let is_wrong = |(at, found): &([u32; 2], f64)| {
+                let expected = DEPTH_NEAR_M / seen.before_the_eye_m(*at);
+                !seen.is_hidden(seen.tangents(*at)) && (found - expected).abs() > DEPTH_ERROR * expected
+            };
+            let wrong = pixels.zip(found).filter(is_wrong).count() as f64 / all;
+            println!("{what}, eye at {:+.4} m: depth of {wrong:.5} differs", eye.position_m.x);
+            let at_most = if format.samples > 1 { SMOOTHED_AT_MOST } else { SHARE_AT_MOST };
+            assert!(wrong <= at_most, "{what}: the depth of {wrong} of the pixels differs");
+        }
     }
 }
 
@@ -147,12 +239,19 @@ fn each_pixel_that_is_handed_over_shows_what_its_eye_sees() {
     let runtime = XrRuntime::new(XrUse::Pictures).unwrap();
     let device = HeadsetDevice::open(&runtime).unwrap();
     let mut headset = Headset::new(runtime, &device).unwrap();
-    println!("{:?} on {}", headset.names(), device.gpu.description());
-    let refined = refine(&LATTICE.build(), EDGE_M).unwrap();
-    let polygon = AS_GIVEN;
-    let image = DEFAULT_MAP;
-    assert_pictures(&mut headset, &device.gpu, polygon, &refined);
-    assert_pictures(&mut headset, &device.gpu, image, &LATTICE.build());
+    let gpu = &device.gpu;
+    println!("{:?} on {}", headset.names(), gpu.description());
+    assert!(headset.in_one_pass, "this driver draws both eyes in one pass");
+    assert!((0..2).all(|view| !headset.hidden(view).is_empty()), "this runtime knows what no lens shows");
+    let (plain, refined) = (LATTICE.build(), refine(&LATTICE.build(), EDGE_M).unwrap());
+    let exact = Format::exact(gpu);
+    for in_one_pass in [true, false] {
+        assert_pictures(&mut headset, gpu, Way { method: AS_GIVEN, format: exact, in_one_pass }, &refined);
+        assert_pictures(&mut headset, gpu, Way { method: DEFAULT_MAP, format: exact, in_one_pass }, &plain);
+    }
+    // As rides are drawn: the depth is that of the nearest of several samples.
+    let smoothed = Way { method: AS_GIVEN, format: Format::fast(4), in_one_pass: true };
+    assert_pictures(&mut headset, gpu, smoothed, &refined);
     drop(headset);
     device.gpu.wait().unwrap();
 }

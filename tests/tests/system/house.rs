@@ -42,7 +42,7 @@ const PLAN: [(&str, &[&str]); 32] = [
     ("interface", &["hardware", "input", "presentation", "render", "ride", "shaders", "view", "words"]),
     ("probe", &["physics", "ride"]),
     ("walls", &["physics", "render", "room", "shaders", "view"]),
-    ("headset", &["input", "render", "room"]),
+    ("headset", &["input", "render", "room", "walls"]),
     ("measure", &["exact_reference", "input", "physics", "render", "ride", "scene", "trace", "view"]),
     (
         "cabin",

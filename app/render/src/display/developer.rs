@@ -16,6 +16,8 @@ pub struct Developer {
     accumulate: Pass,
     /// One pass for each look that was asked for.
     show: Vec<(Look, Pass)>,
+    /// One pass for both eyes for each pair of curves that was asked for.
+    show_views: Vec<((Tone, Gamut), Pass)>,
     meter: Meter,
     sum_format: wgpu::TextureFormat,
     screen_format: wgpu::TextureFormat,
@@ -34,6 +36,7 @@ impl Developer {
         Self {
             accumulate: Pass::new(gpu, &shaders::ACCUMULATE, &[], &[UNFILTERED, UNFILTERED, UNIFORM], radiance),
             show: Vec::new(),
+            show_views: Vec::new(),
             meter: Meter::new(gpu),
             sum_format: radiance,
             screen_format: screen,
@@ -148,19 +151,51 @@ impl Developer {
         pass.draw_part(gpu, encoder, screen, &resources, part.viewport, part.over);
     }
 
+    /// Writes the radiance of two views, with the factor of each besides the eye's exposure, to the two layers of a
+    /// screen, in one pass. Only for a device that [draws views](super::draws_views).
+    pub fn show_views(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        [first, second]: [(&wgpu::TextureView, f32); 2],
+        adaptation: &Adaptation,
+        development: &Development,
+        screen: &wgpu::TextureView,
+    ) {
+        let placement = |exposure| {
+            let placement = shaders::PlacementUniforms { origin: Vec2::ZERO, exposure, odd: 0.0 };
+            contents(gpu, "placement", bytes_of(&placement), wgpu::BufferUsages::UNIFORM)
+        };
+        let placements = [placement(first.1), placement(second.1)];
+        let resources = [
+            wgpu::BindingResource::TextureView(first.0),
+            adaptation.state.as_entire_binding(),
+            adaptation.curve.as_entire_binding(),
+            placements[0].as_entire_binding(),
+            wgpu::BindingResource::TextureView(second.0),
+            placements[1].as_entire_binding(),
+        ];
+        let Development { tone, gamut, .. } = *development;
+        let known = self.show_views.iter().position(|pass| pass.0 == (tone, gamut));
+        let index = known.unwrap_or_else(|| {
+            let bindings = [UNFILTERED, UNIFORM, READ, UNIFORM, UNFILTERED, UNIFORM];
+            let overrides = overrides(self.screen_format, tone, gamut);
+            let pass = Pass::of_views(gpu, &shaders::DISPLAY_VIEWS, &overrides, &bindings, self.screen_format);
+            self.show_views.push(((tone, gamut), pass));
+            self.show_views.len() - 1
+        });
+        self.show_views[index].1.draw(gpu, encoder, screen, &resources);
+    }
+
     /// Pass for a development and a part of the screen, compiled when it is first asked for.
     fn shown_by(&mut self, gpu: &Gpu, development: &Development, part: &DevelopedPart<'_>) -> &Pass {
         let Development { tone, gamut, .. } = *development;
         let look = Look { tone, gamut, gains: part.gains.is_some(), gamma: part.gamma };
         let known = self.show.iter().position(|pass| pass.0 == look);
         let index = known.unwrap_or_else(|| {
-            let overrides = [
-                ("ENCODE", f64::from(u8::from(encodes(self.screen_format)))),
-                ("TONE", f64::from(tone as u32)),
-                ("GAMUT", f64::from(gamut as u32)),
-                ("GAINS", f64::from(u8::from(look.gains))),
-                ("SIGNAL_POWER", look.gamma.map_or(0.0, f64::recip)),
-            ];
+            let [encode, tone, gamut] = overrides(self.screen_format, tone, gamut);
+            let gains = ("GAINS", f64::from(u8::from(look.gains)));
+            let overrides = [encode, tone, gamut, gains, ("SIGNAL_POWER", look.gamma.map_or(0.0, f64::recip))];
             let bindings = [UNFILTERED, UNIFORM, READ, UNIFORM, UNFILTERED];
             let pass = Pass::new(gpu, &shaders::DISPLAY, &overrides, &bindings, self.screen_format);
             self.show.push((look, pass));
@@ -209,6 +244,12 @@ impl Accumulator {
     pub fn restart(&mut self) {
         self.filled = false;
     }
+}
+
+/// Override values of the development for a screen of this format.
+fn overrides(screen: wgpu::TextureFormat, tone: Tone, gamut: Gamut) -> [(&'static str, f64); 3] {
+    let encode = f64::from(u8::from(encodes(screen)));
+    [("ENCODE", encode), ("TONE", f64::from(tone as u32)), ("GAMUT", f64::from(gamut as u32))]
 }
 
 /// True if the values written to a screen must be encoded: the format does not encode by itself, and is no float

@@ -1,6 +1,7 @@
 //! Building blocks of the passes: bindings numbered in order, a shader module, one full-screen triangle.
 
 use crate::gpu::Gpu;
+use std::num::NonZeroU32;
 use wgpu::util::DeviceExt;
 
 /// Binding of a texture that is read texel by texel.
@@ -31,7 +32,12 @@ pub struct Pass {
     name: &'static str,
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::RenderPipeline,
+    /// Layers of the target that are filled at once, a bit each; `None` for a target without layers.
+    views: Option<NonZeroU32>,
 }
+
+/// Both layers of a target for two eyes.
+const TWO_VIEWS: NonZeroU32 = NonZeroU32::new(0b11).expect("it has two bits");
 
 impl Pass {
     /// Compiles `shader` with these override values. `bindings` are numbered in order.
@@ -42,7 +48,19 @@ impl Pass {
         bindings: &[wgpu::BindingType],
         target: wgpu::TextureFormat,
     ) -> Self {
-        Self::with_blend(gpu, shader, overrides, bindings, target, None)
+        Self::compile(gpu, shader, overrides, bindings, (target, None, None))
+    }
+
+    /// The same, which fills the two layers of a target at once. Only for a device that
+    /// [draws views](super::draws_views).
+    pub fn of_views(
+        gpu: &Gpu,
+        shader: &shaders::Module,
+        overrides: &[(&str, f64)],
+        bindings: &[wgpu::BindingType],
+        target: wgpu::TextureFormat,
+    ) -> Self {
+        Self::compile(gpu, shader, overrides, bindings, (target, None, Some(TWO_VIEWS)))
     }
 
     /// The same, whose pixels are laid over those of the target by their opacity, with which they are multiplied.
@@ -54,16 +72,15 @@ impl Pass {
         target: wgpu::TextureFormat,
     ) -> Self {
         let blend = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
-        Self::with_blend(gpu, shader, overrides, bindings, target, Some(blend))
+        Self::compile(gpu, shader, overrides, bindings, (target, Some(blend), None))
     }
 
-    fn with_blend(
+    fn compile(
         gpu: &Gpu,
         shader: &shaders::Module,
         overrides: &[(&str, f64)],
         bindings: &[wgpu::BindingType],
-        target: wgpu::TextureFormat,
-        blend: Option<wgpu::BlendState>,
+        (target, blend, views): (wgpu::TextureFormat, Option<wgpu::BlendState>, Option<NonZeroU32>),
     ) -> Self {
         let device = &gpu.device;
         let layout = layout(gpu, shader.name, wgpu::ShaderStages::FRAGMENT, bindings);
@@ -86,10 +103,10 @@ impl Pass {
                 compilation_options: wgpu::PipelineCompilationOptions { constants: overrides, ..Default::default() },
                 targets: &[Some(wgpu::ColorTargetState { format: target, blend, write_mask: wgpu::ColorWrites::ALL })],
             }),
-            multiview_mask: None,
+            multiview_mask: views,
             cache: None,
         });
-        Self { name: shader.name, layout, pipeline }
+        Self { name: shader.name, layout, pipeline, views }
     }
 
     /// Fills `target` from the bound resources.
@@ -131,7 +148,7 @@ impl Pass {
     ) {
         let group = group(gpu, self.name, &self.layout, resources);
         let transparent = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
-        let mut pass = begin(encoder, target, if over { wgpu::LoadOp::Load } else { transparent });
+        let mut pass = begin(encoder, target, if over { wgpu::LoadOp::Load } else { transparent }, self.views);
         let [x, y, width, height] = part.map(|pixels| pixels as f32);
         pass.set_viewport(x, y, width, height, 0.0, 1.0);
         let [x, y, width, height] = within;
@@ -147,7 +164,7 @@ pub fn clear<'encoder>(
     encoder: &'encoder mut wgpu::CommandEncoder,
     target: &wgpu::TextureView,
 ) -> wgpu::RenderPass<'encoder> {
-    begin(encoder, target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT))
+    begin(encoder, target, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), None)
 }
 
 /// Begins drawing over what a target holds.
@@ -155,13 +172,14 @@ pub fn over<'encoder>(
     encoder: &'encoder mut wgpu::CommandEncoder,
     target: &wgpu::TextureView,
 ) -> wgpu::RenderPass<'encoder> {
-    begin(encoder, target, wgpu::LoadOp::Load)
+    begin(encoder, target, wgpu::LoadOp::Load, None)
 }
 
 fn begin<'encoder>(
     encoder: &'encoder mut wgpu::CommandEncoder,
     target: &wgpu::TextureView,
     load: wgpu::LoadOp<wgpu::Color>,
+    multiview_mask: Option<NonZeroU32>,
 ) -> wgpu::RenderPass<'encoder> {
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("display"),
@@ -171,6 +189,7 @@ fn begin<'encoder>(
             resolve_target: None,
             ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
         })],
+        multiview_mask,
         ..Default::default()
     })
 }

@@ -319,7 +319,8 @@ impl MapRenderer {
             depth_stencil: Some(wgpu::DepthStencilState {
                 format: DEPTH_FORMAT,
                 depth_write_enabled: Some(self.with_depth),
-                depth_compare: Some(wgpu::CompareFunction::Always),
+                // Everywhere but in the hidden part.
+                depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
                 stencil: Default::default(),
                 bias: Default::default(),
             }),
