@@ -93,7 +93,7 @@ fn a_ride_in_a_headset_has_its_head_and_hands_and_replays_without_it() {
     let (told, folder) = worn.end();
     assert!(told.contains("headset: Monado: Simulated HMD"), "{told}");
     let ridden = ridden(folder.path());
-    assert!(ridden.heads > 5 && ridden.wands > 5, "{} heads, {} wands", ridden.heads, ridden.wands);
+    assert!(ridden.heads >= 2 && ridden.wands >= 2, "{} heads, {} wands", ridden.heads, ridden.wands);
     assert!(!ridden.closed, "the session ended: {told}");
     assert_replays(folder.path());
 }
@@ -109,7 +109,7 @@ fn a_runtime_that_is_killed_costs_the_headset_alone() {
     let lost: Vec<&str> = told.lines().filter(|line| line.contains("the ride goes on in the window")).collect();
     assert!(lost.len() == 1 && lost[0].contains("has ended the session"), "{told}");
     let ridden = ridden(folder.path());
-    assert!(ridden.heads > 5 && ridden.closed && ridden.after > 5, "{} frames after the end", ridden.after);
+    assert!(ridden.heads >= 2 && ridden.closed && ridden.after >= 2, "{} frames after the end", ridden.after);
     assert_replays(folder.path());
 
     // A new runtime serves the next ride.
@@ -121,7 +121,7 @@ fn a_runtime_that_is_killed_costs_the_headset_alone() {
     let worn = Worn::new();
     worn.drive(3.0);
     let (told, folder) = worn.end();
-    assert!(self::ridden(folder.path()).heads > 5, "{told}");
+    assert!(self::ridden(folder.path()).heads >= 2, "{told}");
 }
 
 #[test]
