@@ -87,19 +87,12 @@ impl ViewPictures {
         format: (vk::Format, wgpu::TextureFormat),
         with_depth: bool,
     ) -> xr::Result<Vec<Self>> {
-        let mut groups: Vec<(usize, usize, [u32; 2])> = Vec::new();
-        for (view, &size) in sizes.iter().enumerate() {
-            match groups.last_mut() {
-                Some((_, count, shared)) if *shared == size && *count < MOST_LAYERS => *count += 1,
-                _ => groups.push((view, 1, size)),
-            }
-        }
         let made = |(first, count, size)| {
             let colour = Chain::new(session, device, size, count, format)?;
             let depth = with_depth.then(|| Chain::new(session, device, size, count, DEPTH)).transpose()?;
             Ok(Self { first, count, size, colour, depth })
         };
-        groups.into_iter().map(made).collect()
+        groups(sizes).into_iter().map(made).collect()
     }
 
     /// True for a runtime that takes depth in the format in which it is drawn.
@@ -134,6 +127,18 @@ impl ViewPictures {
         let rect = xr::Rect2Di { offset: xr::Offset2Di { x: 0, y: 0 }, extent: xr::Extent2Di { width, height } };
         Some(xr::SwapchainSubImage::new().swapchain(&chain.chain).image_array_index(layer as u32).image_rect(rect))
     }
+}
+
+/// First view, number of views and size of the pictures for views of these sizes.
+fn groups(sizes: &[[u32; 2]]) -> Vec<(usize, usize, [u32; 2])> {
+    let mut groups: Vec<(usize, usize, [u32; 2])> = Vec::new();
+    for (view, &size) in sizes.iter().enumerate() {
+        match groups.last_mut() {
+            Some((_, count, shared)) if *shared == size && *count < MOST_LAYERS => *count += 1,
+            _ => groups.push((view, 1, size)),
+        }
+    }
+    groups
 }
 
 impl Chain {
@@ -224,5 +229,21 @@ impl Chain {
         let number = self.chain.acquire_image()?;
         self.chain.wait_image(xr::Duration::INFINITE)?;
         Ok(number as usize)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Law: both eyes share pictures if theirs have one size; wide views and the finer ones within them do not.
+
+    use super::groups;
+
+    #[test]
+    fn views_of_one_size_share_pictures_two_by_two() {
+        assert_eq!(groups(&[[320, 240]; 2]), [(0, 2, [320, 240])]);
+        assert_eq!(groups(&[[320, 240]; 4]), [(0, 2, [320, 240]), (2, 2, [320, 240])]);
+        let insets = [[1000, 900], [1000, 900], [600, 600], [600, 600]];
+        assert_eq!(groups(&insets), [(0, 2, [1000, 900]), (2, 2, [600, 600])]);
+        assert_eq!(groups(&[[320, 240], [300, 240]]), [(0, 1, [320, 240]), (1, 1, [300, 240])]);
     }
 }

@@ -121,24 +121,34 @@ fn side(view: usize) -> EyeSide {
 
 #[cfg(test)]
 mod tests {
-    //! Law: the frustum of each eye of a headset is the one that the runtime asks for, wherever the head is.
+    //! Law: the frustum of each view of a headset, of one or two for each eye, is the one that the runtime asks for,
+    //! wherever the head is, and left and right take turns.
 
     use super::*;
     use crate::frustum::frustum;
 
     #[test]
     fn each_eyes_frustum_is_the_one_that_was_asked_for() {
-        let eye = |side: f64, yaw: f64| HeadsetEye {
+        let eye = |side: f64, yaw: f64, share: f64| HeadsetEye {
             position_m: DVec3::new(0.0315 * side, 0.0, 0.0),
             orientation: DQuat::from_rotation_y(yaw),
-            low: DVec2::new(-1.1 - 0.1 * side, -0.9),
-            high: DVec2::new(0.95 - 0.1 * side, 1.2),
+            low: share * DVec2::new(-1.1 - 0.1 * side, -0.9),
+            high: share * DVec2::new(0.95 - 0.1 * side, 1.2),
         };
-        let eyes = [eye(-1.0, 0.1), eye(1.0, -0.1)];
-        let mut display = Display::headset("headset", &eyes, &[[320, 240]; 2]);
+        let eyes = [eye(-1.0, 0.1, 1.0), eye(1.0, -0.1, 1.0), eye(-1.0, 0.12, 0.4), eye(1.0, -0.1, 0.4)];
+        assert_frusta(&eyes[..2]);
+        assert_frusta(&eyes);
+    }
+
+    fn assert_frusta(eyes: &[HeadsetEye]) {
+        let sizes: Vec<_> = (0..eyes.len()).map(|view| [[320, 240], [400, 300]][view / 2]).collect();
+        let mut display = Display::headset("headset", eyes, &sizes);
+        let sides: Vec<_> = display.channels.iter().map(|channel| channel.eye).collect();
+        assert_eq!(sides, [EyeSide::Left, EyeSide::Right].repeat(eyes.len() / 2));
+        assert!(display.windows.iter().map(|window| window.size).eq(sizes));
         for head_m in [display.viewer.head_m, DVec3::new(-0.7, 1.1, 2.0)] {
-            display.follow_head(&eyes, head_m);
-            for (channel, eye) in display.channels.iter().zip(&eyes) {
+            display.follow_head(eyes, head_m);
+            for (channel, eye) in display.channels.iter().zip(eyes) {
                 let place_m = display.viewer.eye_m(channel.eye, head_m, DMat3::IDENTITY);
                 assert!((place_m - head_m - eye.position_m).length() < 1e-12);
                 let found = frustum(&channel.flat(&display).unwrap(), place_m).unwrap();
