@@ -40,6 +40,8 @@ pub struct Headset {
     blend: xr::EnvironmentBlendMode,
     format: wgpu::TextureFormat,
     state: XrState,
+    /// Views of the head and of the stage as they were known last; a head that is out of sight keeps them.
+    seen: [Vec<xr::View>; 2],
     session: xr::Session<xr::Vulkan>,
     runtime: XrRuntime,
     // Kept until the session is gone.
@@ -89,9 +91,9 @@ impl Headset {
         let blends = runtime.instance.enumerate_environment_blend_modes(runtime.system, VIEWS).map_err(&refused)?;
         let blend = blends.first().copied().unwrap_or(xr::EnvironmentBlendMode::OPAQUE);
         let device = device.gpu.device.clone();
-        let state = XrState::default();
+        let (state, seen) = (XrState::default(), Default::default());
         drop(refused);
-        Ok(Self { eyes, hands, head, waiter, stream, blend, format, state, session, runtime, device })
+        Ok(Self { eyes, hands, head, waiter, stream, blend, format, state, seen, session, runtime, device })
     }
 
     /// Format in which the pictures are written: sRGB as it is stored. The runtime reads the same bytes as sRGB.
@@ -115,7 +117,8 @@ impl Headset {
     /// # Errors
     /// A session that has ended.
     pub fn wait(&mut self) -> Result<Option<HeadsetTurn>, HeadsetError> {
-        self.runtime.follow(&self.session, &mut self.state)?;
+        let moves = self.runtime.follow(&self.session, &mut self.state)?;
+        self.hands.stage_moves_at(moves);
         if self.state == XrState::Idle {
             std::thread::sleep(REST);
             return Ok(None);
@@ -126,12 +129,21 @@ impl Headset {
         let predicted = frame.predicted_display_time;
         let report = self.hands.report(&self.runtime, &self.session, predicted)?;
         let locate = |space: &xr::Space| self.session.locate_views(VIEWS, predicted, space).map_err(&refused);
-        let (of_head, views) = (locate(&self.head)?.1, locate(self.hands.stage())?.1);
-        let [left, right] = of_head.as_slice() else { return Err(HeadsetError::Views(of_head.len())) };
-        let eyes = [eye(left), eye(right)];
+        let located = [locate(&self.head)?, locate(self.hands.stage())?];
+        let known = xr::ViewStateFlags::ORIENTATION_VALID | xr::ViewStateFlags::POSITION_VALID;
+        if located.iter().all(|(flags, _)| flags.contains(known)) {
+            self.seen = located.map(|(_, views)| views);
+        }
+        let [of_head, views] = self.seen.clone();
+        let eyes = match of_head.as_slice() {
+            [left, right] => [eye(left), eye(right)],
+            [] => HeadsetEye::USUAL,
+            _ => return Err(HeadsetError::Views(of_head.len())),
+        };
+        let is_seen = frame.should_render && !views.is_empty();
         let period =
             u64::try_from(frame.predicted_display_period.as_nanos()).map_or(Duration::ZERO, Duration::from_nanos);
-        Ok(Some(HeadsetTurn { report, eyes, is_seen: frame.should_render, period, predicted, views }))
+        Ok(Some(HeadsetTurn { report, eyes, is_seen, period, predicted, views }))
     }
 
     /// Shows a turn: `draw` draws and submits the picture of an eye, 0 left and 1 right, and leaves it as a target. It
