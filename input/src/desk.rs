@@ -229,6 +229,10 @@ impl Desk {
         let Some(head) = self.head.as_mut().filter(|head| head.config().url.source() == sample.source) else {
             return;
         };
+        if sample.source == SampleSource::Openxr && self.openxr.take_moved() {
+            head.axes_moved();
+            self.wand.iter_mut().for_each(TrackedWand::axes_moved);
+        }
         poses.iter().for_each(|pose| head.pose(pose));
         if !matches!(sample.signal, Signal::Bytes(_)) {
             head.gone(sample.at);

@@ -2,9 +2,11 @@
 use super::*;
 use crate::clock::SECOND;
 use crate::gamepad::GamepadItem;
-use crate::head::config::HeadConfig;
+use crate::head::config::{HeadConfig, Recentring};
 use crate::head::mouse_event::{MouseButton, MouseEvent};
 use crate::key::KeyboardKey;
+use crate::openxr::{XrHand, XrPose, XrReport};
+use crate::wand::config::WandConfig;
 
 fn desk() -> Desk {
     Desk::new(DeskConfig::default()).unwrap()
@@ -181,6 +183,31 @@ fn a_device_that_goes_lets_go() {
         let after = desk.controls(SECOND + SECOND / 2);
         assert_eq!(after.thrust != before.thrust, source == SampleSource::SpaceMouse, "{source}");
         assert_eq!(after.turn != before.turn, source == SampleSource::Keyboard, "{source}");
+    }
+}
+
+#[test]
+fn a_headset_whose_runtime_recentres_is_in_its_seat_and_its_wand_with_it() {
+    let wand = Some(WandConfig { sensor: 2, ..WandConfig::default() });
+    let head = HeadConfig { wand, recentre: Recentring::Start, ..HeadConfig::new("openxr://".parse().unwrap()) };
+    let home = DVec3::from_array(head.home);
+    let mut desk = Desk::new(DeskConfig { head: Some(head), ..DeskConfig::default() }).unwrap();
+    // The hand is half a metre ahead of the head; the stage is moved by what a head could move, and by more.
+    for (number, place, stage_moves) in [(0, 1.0, 0), (1, 1.0, 0), (2, 1.125, 1), (3, -4.0, 2)] {
+        let at = |z: f32| XrPose {
+            position_m: Some([place, 1.5, z]),
+            orientation: Some([0.0, 0.0, 0.0, 1.0]),
+            ..XrPose::default()
+        };
+        let right = XrHand { pose: at(1.5), ..XrHand::default() };
+        let hands = [XrHand::default(), right];
+        let report = XrReport { time_ns: number * 50_000_000, head: at(2.0), hands, stage_moves };
+        let now = number as Nanos * SECOND / 20;
+        desk.feed(&Sample::bytes(now, SampleSource::Openxr, report.to_bytes()));
+        let controls = desk.controls(now);
+        let (head, wand) = (controls.head.unwrap(), controls.wand.unwrap());
+        assert_eq!((head.position_m, head.velocity_m_s), (home, DVec3::ZERO), "{number}");
+        assert!((wand.position_m - home - DVec3::NEG_Z * 0.5).length() < 1e-12, "{number}: {wand:?}");
     }
 }
 

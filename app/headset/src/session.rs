@@ -5,7 +5,7 @@ use crate::error::HeadsetError;
 use crate::pictures::{DEPTH_NEAR_M, TurnPictures, ViewPictures};
 use ash::vk;
 use glam::{DQuat, DVec2, DVec3};
-use input::openxr::{XrHands, XrReport, XrRuntime, XrState};
+use input::openxr::{XrHands, XrNews, XrReport, XrRuntime, XrState};
 use openxr as xr;
 use render::display::draws_views;
 use room::HeadsetEye;
@@ -34,6 +34,10 @@ pub struct Headset {
     blend: xr::EnvironmentBlendMode,
     format: wgpu::TextureFormat,
     state: XrState,
+    /// True if the parts that no lens shows have changed since the last turn.
+    masks_changed: bool,
+    /// Views of the head and of the stage as they were known last; a head that is out of sight keeps them.
+    seen: [Vec<xr::View>; 2],
     session: xr::Session<xr::Vulkan>,
     runtime: XrRuntime,
     // Kept until the session is gone.
@@ -54,6 +58,8 @@ pub struct HeadsetTurn {
     pub asked: Instant,
     /// Time from then until the frame is seen, if the runtime's clock can be read.
     pub lead: Option<Duration>,
+    /// True if the parts that [no lens shows](Headset::hidden) have changed.
+    pub masks_changed: bool,
     predicted: xr::Time,
     views: Vec<xr::View>,
 }
@@ -92,7 +98,7 @@ impl Headset {
         let blend = blends.first().copied().unwrap_or(xr::EnvironmentBlendMode::OPAQUE);
         let in_one_pass = draws_views(&device.gpu);
         let device = device.gpu.device.clone();
-        let state = XrState::default();
+        let (state, seen) = (XrState::default(), Default::default());
         drop(refused);
         Ok(Self {
             pictures,
@@ -105,6 +111,8 @@ impl Headset {
             blend,
             format,
             state,
+            seen,
+            masks_changed: false,
             session,
             runtime,
             device,
@@ -172,7 +180,9 @@ impl Headset {
     /// # Errors
     /// A session that has ended.
     pub fn wait(&mut self) -> Result<Option<HeadsetTurn>, HeadsetError> {
-        self.runtime.follow(&self.session, &mut self.state)?;
+        let XrNews { stage_moves, masks_changed } = self.runtime.follow(&self.session, &mut self.state)?;
+        self.hands.stage_moves_at(stage_moves);
+        self.masks_changed |= masks_changed;
         if self.state == XrState::Idle {
             std::thread::sleep(REST);
             return Ok(None);
@@ -186,16 +196,25 @@ impl Headset {
         let report = self.hands.report(&self.runtime, &self.session, predicted)?;
         let locate =
             |space: &xr::Space| self.session.locate_views(self.runtime.views, predicted, space).map_err(&refused);
-        let (of_head, views) = (locate(&self.head)?.1, locate(self.hands.stage())?.1);
-        if of_head.len() != self.sizes.len() || views.len() != self.sizes.len() {
-            return Err(HeadsetError::Views(of_head.len()));
+        let located = [locate(&self.head)?, locate(self.hands.stage())?];
+        if let Some((_, views)) = located.iter().find(|(_, views)| views.len() != self.sizes.len()) {
+            return Err(HeadsetError::Views(views.len()));
         }
-        let eyes = of_head.iter().map(eye).collect();
+        let known = xr::ViewStateFlags::ORIENTATION_VALID | xr::ViewStateFlags::POSITION_VALID;
+        if located.iter().all(|(flags, _)| flags.contains(known)) {
+            self.seen = located.map(|(_, views)| views);
+        }
+        let [of_head, views] = self.seen.clone();
+        let eyes = match of_head.as_slice() {
+            [] => HeadsetEye::usual(self.sizes.len()),
+            known => known.iter().map(eye).collect(),
+        };
+        let is_seen = frame.should_render && !views.is_empty();
         let duration = |nanoseconds: i64| u64::try_from(nanoseconds).ok().map(Duration::from_nanos);
         let period = duration(frame.predicted_display_period.as_nanos()).unwrap_or_default();
         let lead = now.and_then(|now| duration(predicted.as_nanos() - now.as_nanos()));
-        let is_seen = frame.should_render;
-        Ok(Some(HeadsetTurn { report, eyes, is_seen, period, asked, lead, predicted, views }))
+        let masks_changed = std::mem::take(&mut self.masks_changed);
+        Ok(Some(HeadsetTurn { report, eyes, is_seen, period, asked, lead, masks_changed, predicted, views }))
     }
 
     /// Shows a turn: `draw` draws and submits the pictures of one view or two, leaves them as targets, and returns true

@@ -10,7 +10,7 @@ use egui::{Color32, LayerId, Pos2, Rect, Ui, Vec2};
 use headset::{Headset, HeadsetDevice, HeadsetError};
 use input::decoder::{Actions, Decoder};
 use input::head::{Recentring, TrackedHead};
-use input::openxr::{OpenxrDecoder, XrRuntime, XrUse};
+use input::openxr::{OpenxrDecoder, XrReport, XrRuntime, XrUse};
 use input::{HeadConfig, HeadState, Nanos, TrackerUrl};
 use render::Gpu;
 use render::display::Development;
@@ -23,6 +23,8 @@ use walls::Walls;
 pub(super) struct Worn {
     /// Session of the headset; `None` once it has ended.
     pub(super) session: Option<Headset>,
+    /// Report of the last turn, until the headset rests.
+    pub(super) last: Option<XrReport>,
     /// Copy of the left eye's picture, for the window.
     mirror: Option<(wgpu::TextureView, egui::TextureId)>,
     format: wgpu::TextureFormat,
@@ -57,7 +59,7 @@ pub(super) fn wear(frame_rate: Option<FrameRate>) -> Result<(Gpu, Worn, Display)
     let display = Display::headset(HEADSET, &HeadsetEye::usual(sizes.len()), sizes);
     let format = session.format();
     let viewer = HeadsetViewer::new(&display)?;
-    Ok((device.gpu, Worn { session: Some(session), mirror: None, format, viewer }, display))
+    Ok((device.gpu, Worn { session: Some(session), last: None, mirror: None, format, viewer }, display))
 }
 
 impl HeadsetViewer {
@@ -72,6 +74,9 @@ impl HeadsetViewer {
     fn follow(&mut self, report: &[u8]) -> HeadState {
         let at = self.began.elapsed().as_nanos() as Nanos;
         self.decoder.bytes(at, report, &mut Actions::default());
+        if self.decoder.take_moved() {
+            self.head.axes_moved();
+        }
         self.decoder.take_poses().iter().for_each(|pose| self.head.pose(pose));
         self.head.state(at)
     }
@@ -87,10 +92,9 @@ impl Worn {
     /// takes.
     pub(super) fn fit(&self, gpu: &Gpu, walls: &mut Walls) {
         let Some(session) = &self.session else { return };
-        let views = session.sizes().len();
-        walls.headset = Some(HeadsetEye::usual(views));
-        (0..views).for_each(|view| walls.hide(gpu, view, &session.hidden(view)));
+        walls.headset = Some(HeadsetEye::usual(session.sizes().len()));
         walls.keep_depth(gpu);
+        hide(session, gpu, walls);
     }
 
     /// Format in which its pictures are written.
@@ -118,6 +122,11 @@ impl Worn {
     }
 }
 
+/// Leaves out of the channels what no lens shows.
+pub(super) fn hide(session: &Headset, gpu: &Gpu, walls: &mut Walls) {
+    (0..session.sizes().len()).for_each(|view| walls.hide(gpu, view, &session.hidden(view)));
+}
+
 /// Shows the left eye's picture in the window, whole.
 pub(super) fn mirror(ui: &Ui, picture: SizedTexture) {
     let screen = ui.ctx().content_rect();
@@ -130,12 +139,12 @@ pub(super) fn mirror(ui: &Ui, picture: SizedTexture) {
 #[cfg(test)]
 mod tests {
     //! Law: whoever watches a recorded ride in a headset begins in the driver's seat, wherever the headset is, and
-    //! looks and moves from there as the headset does.
+    //! looks and moves from there as the headset does; a recentring of its runtime makes the present place the seat.
     #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
     use super::*;
     use glam::{DQuat, DVec3};
-    use input::openxr::{XrPose, XrReport};
+    use input::openxr::XrPose;
 
     fn report(time_ns: i64, place: [f32; 3], turn: DQuat) -> Vec<u8> {
         let orientation = Some(turn.to_array().map(|part| part as f32));
@@ -159,5 +168,13 @@ mod tests {
         assert!((moved - DVec3::new(0.0, 0.0, -0.1)).length() < 1e-6, "{moved}");
         let ahead = DQuat::from_rotation_y(0.5) * DVec3::NEG_Z;
         assert!((next.orientation * DVec3::NEG_Z - ahead).length() < 1e-6, "{next:?}");
+        // The runtime moves its stage by a step that a head could make.
+        std::thread::sleep(std::time::Duration::from_millis(2));
+        let mut moved = XrReport::from_bytes(&report(100_000_000, [2.8, 1.2, -5.0], turned)).unwrap();
+        moved.stage_moves = 1;
+        let seat = viewer.follow(&moved.to_bytes());
+        assert!((seat.position_m - display.viewer.head_m).length() < 1e-6, "{seat:?}");
+        assert!((seat.orientation * DVec3::NEG_Z - DVec3::NEG_Z).length() < 1e-6, "{seat:?}");
+        assert_eq!(seat.velocity_m_s, DVec3::ZERO);
     }
 }

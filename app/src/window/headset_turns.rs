@@ -1,13 +1,18 @@
 //! Turns of a headset: its head and hands come into the ride, its pictures go to its runtime.
 
+use super::headset::hide;
 use super::open::Open;
 use crate::error::Error;
 use crate::output::say::tell;
 use hardware::heard;
 use headset::{HeadsetError, HeadsetTurn};
-use input::{Sample, SampleSource};
+use input::{Nanos, SECOND, Sample, SampleSource};
 use render::display::Development;
+use ride::TICKS_PER_SECOND;
 use words::{Language, Phrase};
+
+/// Time of a tick of the ride, not less.
+const TICK: Nanos = SECOND / TICKS_PER_SECOND as Nanos + 1;
 
 impl Open {
     /// Waits until the headset wants a frame, and brings its head and hands into the ride; `None` without a headset, or
@@ -15,20 +20,28 @@ impl Open {
     pub(super) fn headset_turn(&mut self) -> Option<HeadsetTurn> {
         let session = self.worn.as_mut()?.session.as_mut()?;
         match session.wait() {
-            Ok(None) => None,
+            Ok(None) => {
+                self.rest_headset();
+                None
+            }
             Ok(Some(turn)) => {
+                self.worn.as_mut()?.last = Some(turn.report);
                 let report = turn.report.to_bytes();
                 if self.ride.live.is_recorded() {
                     // Whoever watches a recorded ride looks round in it.
                     self.ride.viewer = self.worn.as_mut().map(|worn| worn.follow(&report));
                 } else {
-                    self.ride.live.say(|at| Sample::bytes(at, SampleSource::Openxr, report));
+                    self.say_in_time(|at| Sample::bytes(at, SampleSource::Openxr, report));
                 }
                 if !turn.period.is_zero() {
                     self.ride.hold_rate(turn.period.as_secs_f64().recip());
                 }
-                if let Some(walls) = self.canvas.walls_mut() {
+                let session = self.worn.as_ref().and_then(|worn| worn.session.as_ref());
+                if let Some((walls, session)) = self.canvas.walls_mut().zip(session) {
                     walls.headset = Some(turn.eyes.clone());
+                    if turn.masks_changed {
+                        hide(session, &self.gpu, walls);
+                    }
                 }
                 Some(turn)
             }
@@ -59,13 +72,26 @@ impl Open {
         Ok(self.gpu.lost()?)
     }
 
+    /// Lets go of all that the hands held when the headset was put down. The ride goes on in the window.
+    fn rest_headset(&mut self) {
+        let Some(last) = self.worn.as_mut().and_then(|worn| worn.last.take()) else { return };
+        self.ride.viewer = None;
+        self.say_in_time(|at| Sample::bytes(at, SampleSource::Openxr, last.at_rest().to_bytes()));
+    }
+
+    /// Brings what the headset says into this frame of the ride: it is dated a tick back, since a frame takes what
+    /// came before its last tick, and what is said now would move the head of the next picture alone.
+    fn say_in_time(&mut self, sample: impl FnOnce(Nanos) -> Sample) {
+        self.ride.live.say(|at| sample(at.saturating_sub(TICK)));
+    }
+
     /// Ends the session with the headset. The ride goes on in the window.
     fn lose_headset(&mut self, error: &HeadsetError) {
         if let Some(worn) = &mut self.worn {
             worn.session = None;
         }
         self.ride.viewer = None;
-        self.ride.live.say(|at| Sample::closed(at, SampleSource::Openxr));
+        self.say_in_time(|at| Sample::closed(at, SampleSource::Openxr));
         tell(Language::English.fill(Phrase::HeadsetLost, &[&sentence(error, Language::English)]));
         let language = self.presentation.language;
         let told = language.fill(Phrase::HeadsetLost, &[&sentence(error, language)]);

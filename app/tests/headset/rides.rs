@@ -10,12 +10,13 @@ use input::{SampleSource, Signal};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
+use xr_layer::{PLAIN_RUNTIME, plain_runtime};
 
 /// Socket at which the runtime is reached.
 const SOCKET: &str = "/run/rapidity/monado_comp_ipc";
 
 /// Ride in the headset whose window has come.
-struct Worn {
+pub struct Worn {
     display: VirtualDisplay,
     program: Child,
     folder: tempfile::TempDir,
@@ -24,18 +25,23 @@ struct Worn {
 
 impl Worn {
     fn new() -> Self {
+        Self::arranged(tempfile::tempdir().unwrap(), |_| {})
+    }
+
+    /// Ride in a folder, whose command is arranged first.
+    pub fn arranged(folder: tempfile::TempDir, arrange: impl FnOnce(&mut Command)) -> Self {
         let display = VirtualDisplay::open([640, 480]);
-        let folder = tempfile::tempdir().unwrap();
         let arguments = ["ride", "--display", "openxr", "--scene", "dice", "--language", "en", "--record", "r.mcap"];
         let mut command = display.rapidity(folder.path(), &arguments);
         command.env("XDG_CONFIG_HOME", folder.path()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        arrange(&mut command);
         let program = command.spawn().unwrap();
         let window = wait_for("window", || display.tool(&["search", "--name", "Rapidity"]).filter(|id| !id.is_empty()));
         Self { display, program, folder, window }
     }
 
     /// Holds the key that drives ahead for some seconds.
-    fn drive(&self, seconds: f64) {
+    pub fn drive(&self, seconds: f64) {
         self.display.tool(&["windowfocus", &self.window]);
         self.display.tool(&["keydown", "w"]).unwrap();
         std::thread::sleep(Duration::from_secs_f64(seconds));
@@ -43,8 +49,9 @@ impl Worn {
     }
 
     /// Ends the ride by its key. What it said on standard error, and its folder.
-    fn end(self) -> (String, tempfile::TempDir) {
-        let Self { display, program, folder, .. } = self;
+    pub fn end(self) -> (String, tempfile::TempDir) {
+        let Self { display, program, folder, window } = self;
+        display.tool(&["windowfocus", &window]);
         display.tool(&["key", "Escape"]).unwrap();
         let output = program.wait_with_output().unwrap();
         assert!(output.status.success(), "{}", told(&output));
@@ -79,7 +86,8 @@ fn ridden(folder: &Path) -> Ridden {
     ridden
 }
 
-fn assert_replays(folder: &Path) {
+/// Replays the ride where no runtime answers, and compares its bits.
+pub fn assert_replays(folder: &Path) {
     let mut command = rapidity(folder, &["ride", "--replay", "r.mcap", "--verify"]);
     let verified = command.env("XR_RUNTIME_JSON", "/nowhere").output().unwrap();
     assert!(verified.status.success(), "{}", told(&verified));
@@ -134,4 +142,14 @@ fn a_headset_without_a_runtime_is_told_in_a_sentence() {
     let text = told(&refused);
     assert!(!refused.status.success() && text.contains("no OpenXR runtime answers"), "{text}");
     assert_eq!(text.lines().filter(|line| line.starts_with("rapidity: ")).count(), 1, "{text}");
+}
+
+#[test]
+fn a_runtime_that_lacks_what_is_needed_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = rapidity(folder.path(), &["devices", "--tracker", "openxr://", "--seconds", "1"]);
+    command.env("XR_RUNTIME_JSON", plain_runtime(folder.path())).env_remove("XR_ENABLE_API_LAYERS");
+    let listed = command.output().unwrap();
+    let expected = format!("{PLAIN_RUNTIME} lacks XR_MND_headless");
+    assert!(listed.status.success() && said(&listed).contains(&expected), "{}{}", said(&listed), told(&listed));
 }

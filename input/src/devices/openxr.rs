@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::fault::DeviceFault;
 use super::feed::{DeviceConnection, DevicePort, OpenedDevice};
-use crate::openxr::{XrFault, XrHands, XrRuntime, XrState, XrUse};
+use crate::openxr::{XrFault, XrHands, XrReport, XrRuntime, XrState, XrUse};
 use crate::sample::SampleSource;
 
 /// Time between two reports: more often than any headset measures, as often as any shows.
@@ -23,8 +23,8 @@ impl DevicePort for OpenxrPort {
         let hands = XrHands::new(&runtime, &session)?;
         let place =
             OpenedDevice { source: SampleSource::Openxr, name: runtime.headset(), path: runtime.name().to_owned() };
-        let (state, next) = (XrState::default(), Instant::now());
-        Ok((place, Box::new(HeadsetLink { hands, session, runtime, state, next })))
+        let (state, next, last) = (XrState::default(), Instant::now(), None);
+        Ok((place, Box::new(HeadsetLink { hands, session, runtime, state, next, last })))
     }
 }
 
@@ -36,19 +36,24 @@ struct HeadsetLink {
     state: XrState,
     /// Time of the next report.
     next: Instant,
+    /// Report after which the headset does not rest.
+    last: Option<XrReport>,
 }
 
 impl HeadsetLink {
     fn report(&mut self) -> Result<Option<Vec<u8>>, XrFault> {
-        self.runtime.follow(&self.session, &mut self.state)?;
+        let news = self.runtime.follow(&self.session, &mut self.state)?;
+        self.hands.stage_moves_at(news.stage_moves);
         if self.state == XrState::Idle {
             std::thread::sleep(REST);
-            return Ok(None);
+            return Ok(self.last.take().map(|last| last.at_rest().to_bytes()));
         }
         std::thread::sleep(self.next.saturating_duration_since(Instant::now()));
         self.next = Instant::now() + PERIOD;
         let now = self.runtime.instance.now().map_err(self.runtime.refused("the time"))?;
-        self.hands.report(&self.runtime, &self.session, now).map(|report| Some(report.to_bytes()))
+        let report = self.hands.report(&self.runtime, &self.session, now)?;
+        self.last = Some(report);
+        Ok(Some(report.to_bytes()))
     }
 }
 

@@ -141,3 +141,28 @@ fn a_calibrated_room_is_never_straightened_and_a_window_by_its_first_pose() {
         near(head.state(0).position_m, if recentre == Recentring::Never { place } else { HOME });
     }
 }
+
+#[test]
+fn axes_that_a_tracker_moves_are_no_motion_and_make_the_present_place_the_seat() {
+    // A step that a head could make in that time, and one that none could.
+    for step in [0.05, 3.0] {
+        for (recentre, is_seat) in [(Recentring::Never, false), (Recentring::Key, true), (Recentring::Start, true)] {
+            let mut head = TrackedHead::new(HeadConfig { recentre, ..config("openxr://") }).unwrap();
+            // A walk along x with 1 m/s.
+            let at = |number: u64| DVec3::new(0.01 * number as f64, 1.7, 0.0);
+            (0..5).for_each(|number| head.pose(&pose(number, at(number), DQuat::IDENTITY)));
+            head.axes_moved();
+            let moved = |number: u64| at(number) + DVec3::NEG_Z * step;
+            head.pose(&pose(5, moved(5), DQuat::IDENTITY));
+            let state = head.state(5 * FRAME);
+            near(state.position_m, if is_seat { HOME } else { moved(5) });
+            assert!((state.velocity_m_s - if is_seat { DVec3::ZERO } else { DVec3::X }).length() < 1e-9, "{state:?}");
+            // The walk goes on from there, at its own speed.
+            head.pose(&pose(6, moved(6), DQuat::IDENTITY));
+            let state = head.state(6 * FRAME);
+            near(state.position_m, if is_seat { HOME + DVec3::X * 0.01 } else { moved(6) });
+            assert!((state.velocity_m_s - DVec3::X).length() < 1e-9, "{state:?}");
+            assert_eq!(head.rejected().number(), 0);
+        }
+    }
+}

@@ -40,6 +40,8 @@ pub struct TrackedHead {
     last: Option<SeenPose>,
     /// Pose that leapt away, which the next one may confirm.
     leapt: Option<SeenPose>,
+    /// True if the tracker's axes have moved since the last pose.
+    moved: bool,
     velocity: TrackVelocity,
     /// Velocity of the sum of all small turns, a vector along their axes, radians.
     turn: TrackVelocity,
@@ -64,6 +66,7 @@ impl TrackedHead {
             sensor_from_head: config.head_from_sensor.rigid().inverse(),
             last: None,
             leapt: None,
+            moved: false,
             velocity: TrackVelocity::new(config.velocity),
             turn: TrackVelocity::new(config.velocity),
             turned_rad: DVec3::ZERO,
@@ -102,6 +105,12 @@ impl TrackedHead {
         self.gone.get_or_insert(at);
     }
 
+    /// Takes note that the tracker has moved its axes: the way to the next pose is no motion. Where the rider may
+    /// declare a pose to be the straight one, that pose is, as the tracker's own recentring means it.
+    pub fn axes_moved(&mut self) {
+        self.moved = true;
+    }
+
     /// True if the rider may declare a pose to be the straight one.
     pub fn recentres(&self) -> bool {
         self.config.recentre != Recentring::Never
@@ -134,6 +143,7 @@ impl TrackedHead {
     fn accept(&mut self, pose: &TrackedPose) -> Result<(), PoseError> {
         let mut seen = self.sound(pose)?;
         let Some(last) = self.last else {
+            self.moved = false;
             self.restart(&seen, 0.0);
             self.see(seen);
             if self.config.recentre == Recentring::Start {
@@ -145,6 +155,13 @@ impl TrackedHead {
         // Keep the sign of the quaternion, so that neighbours can be compared.
         if last.room_from_head.orientation.dot(seen.room_from_head.orientation) < 0.0 {
             seen.room_from_head.orientation = -seen.room_from_head.orientation;
+        }
+
+        if std::mem::take(&mut self.moved) {
+            self.restart(&seen, 1.0);
+            self.see(seen);
+            self.recentre();
+            return Ok(());
         }
 
         // Accept a leap once a second pose confirms it.

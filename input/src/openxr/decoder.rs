@@ -17,6 +17,10 @@ use crate::wand::signal::WandSignal;
 pub struct OpenxrDecoder {
     /// Number of the hand that is the wand.
     wand: Option<i32>,
+    /// Number of moves of the runtime's stage in the report fed last; `None` before the first.
+    stage_moves: Option<u8>,
+    /// True if the stage has moved before the poses.
+    moved: bool,
     poses: Vec<TrackedPose>,
     wand_signals: Vec<WandSignal>,
     heard: HeardSensors,
@@ -34,6 +38,11 @@ impl OpenxrDecoder {
         std::mem::take(&mut self.poses)
     }
 
+    /// True if the runtime's stage has moved since the poses before. They are then in other axes.
+    pub fn take_moved(&mut self) -> bool {
+        std::mem::take(&mut self.moved)
+    }
+
     /// Signals of the wand in the report fed last.
     pub fn take_wand_signals(&mut self) -> Vec<WandSignal> {
         std::mem::take(&mut self.wand_signals)
@@ -45,6 +54,7 @@ impl OpenxrDecoder {
     }
 
     fn report(&mut self, at: Nanos, report: &XrReport) {
+        self.moved |= self.stage_moves.replace(report.stage_moves).is_some_and(|before| before != report.stage_moves);
         let [left, right] = &report.hands;
         for (sensor, pose, hand) in
             [(0, &report.head, None), (1, &left.pose, Some(left)), (2, &right.pose, Some(right))]
@@ -82,6 +92,8 @@ fn pose_of(at: Nanos, time_ns: i64, sensor: i32, pose: &XrPose) -> Option<Tracke
 
 impl Decoder for OpenxrDecoder {
     fn reset(&mut self, _at: Nanos) {
+        // The next session counts anew.
+        self.stage_moves = None;
         self.heard.forget();
     }
 
@@ -100,7 +112,7 @@ impl Decoder for OpenxrDecoder {
 #[cfg(test)]
 mod tests {
     //! Laws: the head is sensor 0, the hands are 1 and 2; a pose that the runtime does not know is no pose; the wand is
-    //! one hand, with its buttons and axes; what is no report is counted.
+    //! one hand, with its buttons and axes; a stage that moves is told; what is no report is counted.
     use super::*;
     use crate::openxr::report::tests::report;
     use crate::wand::config::WandConfig;
@@ -124,6 +136,21 @@ mod tests {
         let signals = decoder.take_wand_signals();
         assert_eq!(signals[..2], [WandSignal::Buttons(HeldButtons(2)), WandSignal::Axes(vec![0.25, -0.5, 0.75, 1.0])]);
         assert!(matches!(signals[2], WandSignal::Pose(pose) if pose.sensor == 2), "{signals:?}");
+    }
+
+    #[test]
+    fn a_stage_that_moves_is_told_once() {
+        let mut decoder = decoder(2);
+        let mut moved = |stage_moves| {
+            let report = XrReport { stage_moves, ..report() };
+            decoder.bytes(7, &report.to_bytes(), &mut Actions::default());
+            decoder.take_moved()
+        };
+        assert_eq!([250, 250, 251, 251, 0, 0].map(&mut moved), [false, false, true, false, true, false]);
+        // Another session has moves of its own.
+        decoder.reset(8);
+        decoder.bytes(9, &report().to_bytes(), &mut Actions::default());
+        assert!(!decoder.take_moved());
     }
 
     #[test]

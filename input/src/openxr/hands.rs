@@ -72,6 +72,8 @@ pub struct XrHands {
     hands: [(xr::Path, xr::Space); 2],
     head: xr::Space,
     stage: xr::Space,
+    /// Times at which the runtime moves its stage, and the number of those that are over, modulo 256.
+    moves: (Vec<xr::Time>, u8),
 }
 
 impl XrHands {
@@ -109,7 +111,8 @@ impl XrHands {
         let head = session
             .create_reference_space(xr::ReferenceSpaceType::VIEW, xr::Posef::IDENTITY)
             .map_err(runtime.refused("the head's place"))?;
-        Ok(Self { set, actions, hands: spaces, head, stage: runtime.stage(session)? })
+        let (stage, moves) = (runtime.stage(session)?, (Vec::new(), 0));
+        Ok(Self { set, actions, hands: spaces, head, stage, moves })
     }
 
     /// Space in which the poses are.
@@ -117,12 +120,28 @@ impl XrHands {
         &self.stage
     }
 
+    /// Takes the times at which the runtime moves its stage, as it has announced them.
+    pub fn stage_moves_at(&mut self, times: Vec<xr::Time>) {
+        self.moves.0.extend(times);
+    }
+
     /// Report on head and hands at a time of the runtime's clock.
     ///
     /// # Errors
     /// A session that is lost.
-    pub fn report<G>(&self, runtime: &XrRuntime, session: &xr::Session<G>, at: xr::Time) -> Result<XrReport, XrFault> {
+    pub fn report<G>(
+        &mut self,
+        runtime: &XrRuntime,
+        session: &xr::Session<G>,
+        at: xr::Time,
+    ) -> Result<XrReport, XrFault> {
         let lost = runtime.refused("the poses");
+        // Poses of a time before the move are still where the stage was.
+        let (announced, over) = &mut self.moves;
+        let waiting = announced.len();
+        announced.retain(|time| time.as_nanos() > at.as_nanos());
+        *over = over.wrapping_add((waiting - announced.len()) as u8);
+        let stage_moves = *over;
         session.sync_actions(&[xr::ActiveActionSet::new(&self.set)]).map_err(&lost)?;
         let pose = |space: &xr::Space| runtime.locate(space, &self.stage, at).map_err(&lost);
         let hand = |(side, space): &(xr::Path, xr::Space)| -> Result<XrHand, XrFault> {
@@ -136,7 +155,7 @@ impl XrHands {
             Ok(XrHand { pose: pose(space)?, buttons, axes: axes.map(|axis| if axis.is_finite() { axis } else { 0.0 }) })
         };
         let hands = [hand(&self.hands[0])?, hand(&self.hands[1])?];
-        Ok(XrReport { time_ns: at.as_nanos(), head: pose(&self.head)?, hands })
+        Ok(XrReport { time_ns: at.as_nanos(), head: pose(&self.head)?, hands, stage_moves })
     }
 }
 

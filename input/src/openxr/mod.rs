@@ -19,4 +19,4 @@ mod runtime;
 pub use decoder::OpenxrDecoder;
 pub use hands::XrHands;
 pub use report::{REPORT_LENGTH, RIGHT_HAND, TRIGGER_AXIS, XrHand, XrPose, XrReport, XrReportError};
-pub use runtime::{XrFault, XrRuntime, XrState, XrUse};
+pub use runtime::{XrFault, XrNews, XrRuntime, XrState, XrUse};

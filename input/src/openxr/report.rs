@@ -1,11 +1,12 @@
-//! Report on head and hands: 208 bytes, little-endian.
+//! Report on head and hands: 209 bytes, little-endian.
 //!
 //! | bytes | what |
 //! |---|---|
-//! | 0 | edition of this format, 1 |
+//! | 0 | edition of this format, 2 |
 //! | 1–8 | i64, time of the poses on the runtime's clock, nanoseconds |
 //! | 9–61, 62–114, 115–167 | pose of the head, of the left and of the right hand |
 //! | 168–187, 188–207 | u32 buttons that are held, f32 × 4 axes of the left and of the right hand |
+//! | 208 | how often the runtime has moved its stage so far, modulo 256; edition 1 ends before it |
 //!
 //! | bytes of a pose | what |
 //! |---|---|
@@ -18,12 +19,14 @@
 use thiserror::Error;
 
 /// Length of a report, bytes.
-pub const REPORT_LENGTH: usize = 208;
+pub const REPORT_LENGTH: usize = 209;
 /// Number of the right hand among the sensors.
 pub const RIGHT_HAND: i32 = 2;
 /// Number of the trigger among a hand's axes.
 pub const TRIGGER_AXIS: u32 = 2;
-const EDITION: u8 = 1;
+const EDITION: u8 = 2;
+/// Length of a report of edition 1, bytes.
+const FIRST_LENGTH: usize = 208;
 const POSE_LENGTH: usize = 53;
 
 /// Reason why bytes are no report.
@@ -33,7 +36,7 @@ pub enum XrReportError {
     #[error("a report of {0} bytes: expected {REPORT_LENGTH}")]
     Length(usize),
     /// Bytes of another edition.
-    #[error("a report of edition {0}: this version reads edition {EDITION}")]
+    #[error("a report of edition {0}: this version reads editions 1 and {EDITION}")]
     Edition(u8),
     /// A number that is not finite.
     #[error("a number of the report is not finite")]
@@ -75,6 +78,9 @@ pub struct XrReport {
     pub head: XrPose,
     /// Left and right hand.
     pub hands: [XrHand; 2],
+    /// Number of times that the runtime has moved its stage so far, modulo 256: by its own recentring, or as its room
+    /// was set up anew.
+    pub stage_moves: u8,
 }
 
 impl XrPose {
@@ -121,7 +127,13 @@ impl XrReport {
             bytes.extend(hand.buttons.to_le_bytes());
             hand.axes.iter().for_each(|axis| bytes.extend(axis.to_le_bytes()));
         }
+        bytes.push(self.stage_moves);
         bytes
+    }
+
+    /// Report after which nothing is seen or held: the headset rests, or the hands are another program's.
+    pub fn at_rest(&self) -> Self {
+        Self { time_ns: self.time_ns, stage_moves: self.stage_moves, ..Self::default() }
     }
 
     /// Report of these bytes.
@@ -129,12 +141,15 @@ impl XrReport {
     /// # Errors
     /// Bytes that are no report.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, XrReportError> {
-        let whole: &[u8; REPORT_LENGTH] = bytes.try_into().map_err(|_| XrReportError::Length(bytes.len()))?;
-        let mut bytes = Bytes(whole);
-        let [edition] = bytes.take();
-        if edition != EDITION {
-            return Err(XrReportError::Edition(edition));
+        match (bytes.len(), bytes.first()) {
+            (FIRST_LENGTH, Some(1)) | (REPORT_LENGTH, Some(&EDITION)) => {}
+            (FIRST_LENGTH | REPORT_LENGTH, Some(&edition)) if !(1..=EDITION).contains(&edition) => {
+                return Err(XrReportError::Edition(edition));
+            }
+            (length, _) => return Err(XrReportError::Length(length)),
         }
+        let mut bytes = Bytes(bytes);
+        let [_edition] = bytes.take();
         let time_ns = i64::from_le_bytes(bytes.take());
         let poses = [XrPose::read(&mut bytes)?, XrPose::read(&mut bytes)?, XrPose::read(&mut bytes)?];
         let mut hands = [poses[1], poses[2]].map(|pose| XrHand { pose, ..XrHand::default() });
@@ -142,7 +157,8 @@ impl XrReport {
             hand.buttons = u32::from_le_bytes(bytes.take());
             hand.axes = bytes.numbers()?;
         }
-        Ok(Self { time_ns, head: poses[0], hands })
+        let [stage_moves] = bytes.take();
+        Ok(Self { time_ns, head: poses[0], hands, stage_moves })
     }
 }
 
@@ -166,11 +182,12 @@ impl Bytes<'_> {
     }
 }
 
-const _: () = assert!(1 + 8 + 3 * POSE_LENGTH + 2 * 20 == REPORT_LENGTH);
+const _: () = assert!(1 + 8 + 3 * POSE_LENGTH + 2 * 20 == FIRST_LENGTH && FIRST_LENGTH + 1 == REPORT_LENGTH);
 
 #[cfg(test)]
 pub(super) mod tests {
-    //! Law: a report survives its bytes, whatever is known of each pose; what is no report is told from one.
+    //! Law: a report survives its bytes, whatever is known of each pose; reports of edition 1 are read; what is no
+    //! report is told from one.
     use super::*;
 
     /// Report in which every number differs.
@@ -188,7 +205,7 @@ pub(super) mod tests {
         };
         let head = pose();
         let hands = [1, 2].map(|hand| XrHand { pose: pose(), buttons: hand, axes: [0.25, -0.5, 0.75, 1.0] });
-        XrReport { time_ns: -7_000_000_001, head, hands }
+        XrReport { time_ns: -7_000_000_001, head, hands, stage_moves: 3 }
     }
 
     #[test]
@@ -212,12 +229,20 @@ pub(super) mod tests {
     fn the_layout_is_the_one_that_is_written_down() {
         let bytes = report().to_bytes();
         let number = |at: usize| f32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
-        assert_eq!((bytes[0], bytes[9]), (1, 15));
+        assert_eq!((bytes[0], bytes[9], bytes[208]), (2, 15, 3));
         assert_eq!(i64::from_le_bytes(bytes[1..9].try_into().unwrap()), -7_000_000_001);
         assert_eq!([number(10), number(14), number(18)], report().head.position_m.unwrap());
         assert_eq!(number(10 + 12 + 4), 0.6);
         assert_eq!(number(63), report().hands[0].pose.position_m.unwrap()[0]);
         assert_eq!((bytes[168], number(172), bytes[188], number(204)), (1, 0.25, 2, 1.0));
+    }
+
+    #[test]
+    fn a_report_of_edition_1_is_one_without_moves() {
+        let mut bytes = report().to_bytes();
+        bytes.truncate(208);
+        bytes[0] = 1;
+        assert_eq!(XrReport::from_bytes(&bytes), Ok(XrReport { stage_moves: 0, ..report() }));
     }
 
     #[test]
@@ -228,8 +253,10 @@ pub(super) mod tests {
             bytes[at..at + with.len()].copy_from_slice(with);
             XrReport::from_bytes(&bytes)
         };
-        assert_eq!(XrReport::from_bytes(&good[1..]), Err(XrReportError::Length(207)));
-        assert_eq!(changed(0, &[2]), Err(XrReportError::Edition(2)));
+        assert_eq!(XrReport::from_bytes(&good[2..]), Err(XrReportError::Length(207)));
+        assert_eq!(XrReport::from_bytes(&good[..208]), Err(XrReportError::Length(208)));
+        assert_eq!(changed(0, &[1]), Err(XrReportError::Length(209)));
+        assert_eq!(changed(0, &[3]), Err(XrReportError::Edition(3)));
         for at in [10, 30, 63, 204] {
             assert_eq!(changed(at, &f32::NAN.to_le_bytes()), Err(XrReportError::Number), "{at}");
         }

@@ -88,17 +88,21 @@ impl XrRuntime {
                 [(there.khr_vulkan_enable2, "XR_KHR_vulkan_enable2")].to_vec()
             }
         };
-        if let Some((_, lacking)) = needed.into_iter().find(|(is_there, _)| !is_there) {
-            return Err(XrFault::Lacks("the OpenXR runtime".to_owned(), lacking));
-        }
         let application = xr::ApplicationInfo {
             application_name: "Rapidity",
             engine_name: "Rapidity",
             api_version: xr::Version::new(1, 0, 0),
             ..Default::default()
         };
+        let name_of = |instance: xr::Instance| instance.properties().map(|known| known.runtime_name);
+        let unnamed = |_| "the OpenXR runtime".to_owned();
+        if let Some((_, lacking)) = needed.into_iter().find(|(is_there, _)| !is_there) {
+            // A runtime says its name to whoever wants nothing of it.
+            let plain = entry.create_instance(&application, &xr::ExtensionSet::default(), &[], &());
+            return Err(XrFault::Lacks(plain.and_then(name_of).unwrap_or_else(unnamed), lacking));
+        }
         let instance = entry.create_instance(&application, &extensions, &[], &()).map_err(no_runtime)?;
-        let name = instance.properties().map_or_else(|_| "the OpenXR runtime".to_owned(), |known| known.runtime_name);
+        let name = name_of(instance.clone()).unwrap_or_else(unnamed);
         let system = instance.system(xr::FormFactor::HEAD_MOUNTED_DISPLAY).map_err(|result| match result {
             xr::sys::Result::ERROR_FORM_FACTOR_UNAVAILABLE | xr::sys::Result::ERROR_FORM_FACTOR_UNSUPPORTED => {
                 XrFault::NoHeadset(name.clone())
@@ -201,7 +205,8 @@ impl XrRuntime {
     ///
     /// # Errors
     /// A session that has ended for good.
-    pub fn follow<G>(&self, session: &xr::Session<G>, state: &mut XrState) -> Result<(), XrFault> {
+    pub fn follow<G>(&self, session: &xr::Session<G>, state: &mut XrState) -> Result<XrNews, XrFault> {
+        let mut news = XrNews::default();
         let mut storage = xr::EventDataBuffer::new();
         while let Some(event) = self.instance.poll_event(&mut storage).map_err(self.refused("its events"))? {
             let ended = || XrFault::Ended(self.name.clone());
@@ -222,11 +227,14 @@ impl XrRuntime {
                     xr::SessionState::LOSS_PENDING | xr::SessionState::EXITING => return Err(ended()),
                     _ => {}
                 },
+                // Some runtimes move their stage, others the seat beside it alone: the user means the same.
+                xr::Event::ReferenceSpaceChangePending(change) => news.stage_moves.push(change.change_time()),
+                xr::Event::VisibilityMaskChangedKHR(_) => news.masks_changed = true,
                 xr::Event::InstanceLossPending(_) => return Err(ended()),
                 _ => {}
             }
         }
-        Ok(())
+        Ok(news)
     }
 }
 
@@ -247,6 +255,16 @@ fn known(place: &xr::sys::SpaceLocation, motion: &xr::sys::SpaceVelocity) -> XrP
         velocity_m_s: finite(motion.linear_velocity).filter(|_| moves(xr::SpaceVelocityFlags::LINEAR_VALID)),
         turning_rad_s: finite(motion.angular_velocity).filter(|_| moves(xr::SpaceVelocityFlags::ANGULAR_VALID)),
     }
+}
+
+/// News of a runtime, besides the state of the session.
+#[derive(Clone, Debug, Default)]
+pub struct XrNews {
+    /// Times at which the runtime moves the places that its spaces are about: its user has recentred, or set the room up
+    /// anew.
+    pub stage_moves: Vec<xr::Time>,
+    /// True if other parts of the pictures than before are those that no lens shows.
+    pub masks_changed: bool,
 }
 
 /// State of a session.

@@ -72,6 +72,11 @@ impl TrackedWand {
         self.held_at = at;
     }
 
+    /// Takes note that the tracker has moved its axes.
+    pub fn axes_moved(&mut self) {
+        self.hand.axes_moved();
+    }
+
     /// Lets go of everything: the tracker came or went.
     pub fn gone(&mut self, at: Nanos) {
         self.hand.gone(at);

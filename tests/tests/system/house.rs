@@ -14,12 +14,13 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 32] = [
+const PLAN: [(&str, &[&str]); 33] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
     ("regular_file", &[]),
     ("words", &[]),
+    ("xr_layer", &[]),
     ("decoders", &["regular_file"]),
     ("gltf_text", &[]),
     ("input", &["regular_file"]),

@@ -127,7 +127,8 @@ impl MadDevices<'_> {
             buttons: if self.below(4) == 0 { self.below(16) as u32 } else { 0 },
             axes: [0; 4].map(|_| self.number(1.0) as f32),
         });
-        XrReport { time_ns: self.random.random_range(0..1 << 40), head: poses[0], hands }
+        let stage_moves = u8::from(self.random.random_bool(0.05));
+        XrReport { time_ns: self.random.random_range(0..1 << 40), head: poses[0], hands, stage_moves }
     }
 
     fn headset_pose(&mut self) -> XrPose {
