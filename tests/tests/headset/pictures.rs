@@ -22,12 +22,14 @@ use room::{Display, HeadsetEye};
 use scene::Scene;
 use scene::refine::refine;
 use std::collections::HashSet;
+use std::process::Command;
 use std::time::{Duration, Instant};
 use system_tests::exact::Boxes;
 use system_tests::occupants::EyeInWorld;
 use system_tests::photographer::{AS_GIVEN, DEFAULT_MAP};
 use view::{Dial, Effects, Occasion};
 use walls::{Occupant, Quality, RoomHead, Walls};
+use xr_layer::LayerScript;
 
 const BACKGROUND: [f32; 3] = [0.01, 0.02, 0.03];
 const LATTICE: Lattice = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 };
@@ -245,6 +247,7 @@ fn each_pixel_that_is_handed_over_shows_what_its_eye_sees() {
     let gpu = &device.gpu;
     println!("{:?} on {}", headset.names(), gpu.description());
     assert!(headset.in_one_pass, "this driver draws both eyes in one pass");
+    println!("{} views", headset.sizes().len());
     assert!((0..2).all(|view| !headset.hidden(view).is_empty()), "this runtime knows what no lens shows");
     let (plain, refined) = (LATTICE.build(), refine(&LATTICE.build(), EDGE_M).unwrap());
     let exact = Format::exact(gpu);
@@ -257,4 +260,18 @@ fn each_pixel_that_is_handed_over_shows_what_its_eye_sees() {
     assert_pictures(&mut headset, gpu, smoothed, &refined);
     drop(headset);
     device.gpu.wait().unwrap();
+}
+
+#[test]
+fn each_pixel_of_a_headset_with_finer_views_within_shows_what_its_eye_sees() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = LayerScript::new(folder.path());
+    script.say(&["insets"]);
+    let mut itself = Command::new(std::env::current_exe().unwrap());
+    let name = "pictures::each_pixel_that_is_handed_over_shows_what_its_eye_sees";
+    script.lead(itself.args(["--exact", name, "--nocapture"]));
+    let output = itself.output().unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    println!("{said}");
+    assert!(output.status.success() && said.contains("4 views"), "{}", String::from_utf8_lossy(&output.stderr));
 }

@@ -3,7 +3,10 @@
 //! Every pointer that comes in is the program's, valid by the standard for the time of the call. The layer writes what
 //! the standard has a runtime write, and hands on copies where it changes what the program has said.
 
-use crate::layer::{Layer, LayerEvent, SpaceKind, with};
+use crate::insets::{
+    below, enumerate_blend_modes, enumerate_view_configurations, enumerate_views, visibility_mask, with_insets,
+};
+use crate::layer::{INSETS_EXTENSION, Layer, LayerEvent, SpaceKind, with};
 use crate::next::NextFunctions;
 use openxr::sys::{self, Handle, Result, SessionState, Space, Time, pfn};
 use std::ffi::{CStr, c_char};
@@ -35,11 +38,21 @@ unsafe extern "system" fn create(
     // SAFETY: the loader's structures are whole, and name this layer first, which is taken out for the next one.
     unsafe {
         let own = &*(*layer).next_info;
-        let below = sys::ApiLayerCreateInfo { next_info: own.next, ..*layer };
+        let under = sys::ApiLayerCreateInfo { next_info: own.next, ..*layer };
         let (Some(create), Some(find)) = (own.next_create_api_layer_instance, own.next_get_instance_proc_addr) else {
             return Result::ERROR_INITIALIZATION_FAILED;
         };
-        let made = create(info, &raw const below, instance);
+        // The layer alone knows of the extension that it offers.
+        let names =
+            std::slice::from_raw_parts((*info).enabled_extension_names, (*info).enabled_extension_count as usize);
+        let is_known = |name: &*const c_char| CStr::from_ptr(*name).to_bytes() != INSETS_EXTENSION.as_bytes();
+        let names: Vec<*const c_char> = names.iter().copied().filter(is_known).collect();
+        let info = sys::InstanceCreateInfo {
+            enabled_extension_count: names.len() as u32,
+            enabled_extension_names: names.as_ptr(),
+            ..*info
+        };
+        let made = create(&raw const info, &raw const under, instance);
         if made.into_raw() < 0 {
             return made;
         }
@@ -64,6 +77,12 @@ unsafe extern "system" fn find(
     // SAFETY: the name ends with a zero.
     let own = match unsafe { CStr::from_ptr(name) }.to_bytes() {
         b"xrPollEvent" => own!(poll_event: PollEvent),
+        b"xrEnumerateViewConfigurations" => {
+            own!(enumerate_view_configurations: EnumerateViewConfigurations)
+        }
+        b"xrEnumerateViewConfigurationViews" => own!(enumerate_views: EnumerateViewConfigurationViews),
+        b"xrEnumerateEnvironmentBlendModes" => own!(enumerate_blend_modes: EnumerateEnvironmentBlendModes),
+        b"xrGetVisibilityMaskKHR" => own!(visibility_mask: GetVisibilityMaskKHR),
         b"xrBeginSession" => own!(begin_session: BeginSession),
         b"xrEndSession" => own!(end_session: EndSession),
         b"xrWaitFrame" => own!(wait_frame: WaitFrame),
@@ -140,7 +159,15 @@ unsafe extern "system" fn begin_session(session: sys::Session, info: *const sys:
         return Result::ERROR_SESSION_NOT_READY;
     }
     // SAFETY: passed on as it came. The runtime's session runs on while the program's rests.
-    let result = if begun { Result::SUCCESS } else { unsafe { (next.begin_session)(session, info) } };
+    let result = if begun {
+        Result::SUCCESS
+    } else {
+        unsafe {
+            let primary_view_configuration_type = below((*info).primary_view_configuration_type);
+            let info = sys::SessionBeginInfo { primary_view_configuration_type, ..*info };
+            (next.begin_session)(session, &raw const info)
+        }
+    };
     if result.into_raw() >= 0 {
         with(|layer| {
             (layer.begun, layer.running, layer.pictured) = (true, true, false);
@@ -216,7 +243,7 @@ unsafe extern "system" fn end_frame(session: sys::Session, info: *const sys::Fra
     if let Some(refusal) = refused() {
         return refusal;
     }
-    let next = with(|layer| layer.next);
+    let (next, four) = with(|layer| (layer.next, layer.insets));
     // SAFETY: the program's layers are whole, as many as it says. Of a picture's layer all is copied.
     unsafe {
         let info = &*info;
@@ -232,7 +259,8 @@ unsafe extern "system" fn end_frame(session: sys::Session, info: *const sys::Fra
             let projection = &*layer.cast::<sys::CompositionLayerProjection>();
             let space = in_place(session, projection.space, info.display_time);
             // The copies were given their room, and stay where they are.
-            copies.push(sys::CompositionLayerProjection { space, ..*projection });
+            let view_count = if four { projection.view_count.min(2) } else { projection.view_count };
+            copies.push(sys::CompositionLayerProjection { space, view_count, ..*projection });
             handed.push(copies.as_ptr().add(copies.len() - 1).cast());
         }
         let info = sys::FrameEndInfo { layers: handed.as_ptr(), ..*info };
@@ -367,12 +395,24 @@ unsafe extern "system" fn locate_views(
     count: *mut u32,
     views: *mut sys::View,
 ) -> Result {
-    let (next, head) = with(|layer| (layer.next, layer.head));
+    let (next, head, four) = with(|layer| (layer.next, layer.head, layer.insets));
     // SAFETY: passed on with another space, and written by the runtime if it has succeeded: as many views as it says.
     unsafe {
         let space = in_place(session, (*info).space, (*info).display_time);
-        let info = sys::ViewLocateInfo { space, ..*info };
-        let located = (next.locate_views)(session, &raw const info, state, capacity, count, views);
+        let view_configuration_type = below((*info).view_configuration_type);
+        let info = sys::ViewLocateInfo { space, view_configuration_type, ..*info };
+        let located = if four && capacity >= 4 {
+            let mut two = [*views; 2];
+            let located = (next.locate_views)(session, &raw const info, state, 2, count, two.as_mut_ptr());
+            std::ptr::copy_nonoverlapping(with_insets(two).as_ptr(), views, 4);
+            *count = 4;
+            located
+        } else if four {
+            *count = 4;
+            if capacity == 0 { Result::SUCCESS } else { Result::ERROR_SIZE_INSUFFICIENT }
+        } else {
+            (next.locate_views)(session, &raw const info, state, capacity, count, views)
+        };
         if located.into_raw() >= 0 && !head {
             (*state).view_state_flags = sys::ViewStateFlags::EMPTY;
             for number in 0..(*count).min(capacity) as usize {

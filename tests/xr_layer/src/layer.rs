@@ -15,6 +15,11 @@ pub(crate) const COMMANDS: &str = "RAPIDITY_XR_LAYER";
 /// Ending of the journal beside that file: what was played out, and what the program did.
 pub(crate) const JOURNAL: &str = "journal";
 
+/// Extension that the layer offers.
+pub(crate) const INSETS_EXTENSION: &str = "XR_VARJO_quad_views";
+/// First command of a headset with insets.
+const INSETS: &str = "insets\n";
+
 /// Event that waits for the program.
 #[derive(Clone, Copy)]
 pub(crate) enum LayerEvent {
@@ -59,6 +64,8 @@ pub(crate) struct Layer {
     pub(crate) head: bool,
     /// Velocity of the head, m/s, if the runtime knows it.
     pub(crate) velocity: Option<[f32; 3]>,
+    /// True if the headset has finer views within those of both eyes.
+    pub(crate) insets: bool,
     /// Events that wait for the program.
     pub(crate) waiting: VecDeque<LayerEvent>,
     /// Time at which the last frame is seen, and that of a frame.
@@ -89,6 +96,9 @@ pub(crate) fn with<T>(work: impl FnOnce(&mut Layer) -> T) -> T {
 impl Layer {
     /// Puts a new layer in place, for a new instance.
     pub(crate) fn begin(next: NextFunctions) {
+        let commands = std::env::var_os(COMMANDS).map(PathBuf::from);
+        let text = commands.as_ref().and_then(|path| std::fs::read_to_string(path).ok()).unwrap_or_default();
+        let insets = text.starts_with(INSETS);
         let layer = Self {
             next,
             session: openxr::sys::Handle::from_raw(0),
@@ -100,6 +110,7 @@ impl Layer {
             lost: false,
             head: true,
             velocity: None,
+            insets,
             waiting: VecDeque::new(),
             frame: (Time::from_nanos(1), Duration::from_nanos(1)),
             spaces: HashMap::new(),
@@ -108,8 +119,8 @@ impl Layer {
             actions: HashMap::new(),
             right: Path::NULL,
             held: HashMap::new(),
-            commands: std::env::var_os(COMMANDS).map(PathBuf::from),
-            lines_done: 0,
+            commands,
+            lines_done: usize::from(insets),
         };
         *LAYER.lock().unwrap_or_else(PoisonError::into_inner) = Some(layer);
     }

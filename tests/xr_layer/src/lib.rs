@@ -8,6 +8,7 @@
 //!
 //! | command | plays out |
 //! |---|---|
+//! | `insets`, as the very first | the headset has finer views within those of both eyes |
 //! | `synchronized`, `visible`, `focused` | the session's next state |
 //! | `stopping` | the same; after the session's end `idle` comes by itself |
 //! | `ready` | the same; after the session's beginning the way to `focused` comes by itself |
@@ -26,6 +27,7 @@
 
 mod calls;
 mod command;
+mod insets;
 mod layer;
 mod next;
 mod plain_runtime;

@@ -12,6 +12,8 @@ macro_rules! functions {
             /// Function that finds all others.
             pub(crate) find: pfn::GetInstanceProcAddr,
             $(pub(crate) $field: pfn::$kind,)*
+            /// Function of an extension that the program may not have asked for.
+            pub(crate) visibility_mask: Option<pfn::GetVisibilityMaskKHR>,
         }
 
         impl NextFunctions {
@@ -20,8 +22,14 @@ macro_rules! functions {
             /// # Safety
             /// `find` belongs to the instance, which is alive.
             pub(crate) unsafe fn of(find: pfn::GetInstanceProcAddr, instance: Instance) -> Option<Self> {
+                // SAFETY: the instance is alive, as the caller promises; the function of that name has that type.
+                let visibility_mask = unsafe {
+                    found(find, instance, "xrGetVisibilityMaskKHR")
+                        .map(|function| std::mem::transmute::<pfn::VoidFunction, pfn::GetVisibilityMaskKHR>(function))
+                };
                 Some(Self {
                     find,
+                    visibility_mask,
                     $($field: {
                         // SAFETY: the instance is alive, as the caller promises.
                         let function = unsafe { found(find, instance, $name) }?;
@@ -36,6 +44,9 @@ macro_rules! functions {
 
 functions! {
     poll_event: PollEvent = "xrPollEvent",
+    enumerate_view_configurations: EnumerateViewConfigurations = "xrEnumerateViewConfigurations",
+    enumerate_views: EnumerateViewConfigurationViews = "xrEnumerateViewConfigurationViews",
+    enumerate_blend_modes: EnumerateEnvironmentBlendModes = "xrEnumerateEnvironmentBlendModes",
     begin_session: BeginSession = "xrBeginSession",
     end_session: EndSession = "xrEndSession",
     wait_frame: WaitFrame = "xrWaitFrame",

@@ -1,6 +1,6 @@
 //! The test's side: where the loader finds the layer, the commands, and the journal.
 
-use crate::layer::{COMMANDS, JOURNAL};
+use crate::layer::{COMMANDS, INSETS_EXTENSION, JOURNAL};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -30,7 +30,8 @@ impl LayerScript {
     pub fn new(folder: &Path) -> Self {
         let manifest = format!(
             r#"{{"file_format_version": "1.0.0", "api_layer": {{"name": "{NAME}", "library_path": "{}",
-                "api_version": "1.0", "implementation_version": "1", "description": "Life of a headset"}}}}"#,
+                "api_version": "1.0", "implementation_version": "1", "description": "Life of a headset",
+                "instance_extensions": [{{"name": "{INSETS_EXTENSION}", "extension_version": "1"}}]}}}}"#,
             library().display()
         );
         let script = Self { folder: folder.to_owned() };
