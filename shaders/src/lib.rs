@@ -23,9 +23,9 @@ pub use constants::{
 };
 pub use layout::{
     AccumulateUniforms, AdaptationState, AtlasTile, FacetUniforms, InterfaceUniforms, LightingUniforms, MapUniforms,
-    MaterialUniforms, MeteringUniforms, PlacementUniforms, RoomViewUniforms, SheetUniforms, ViewUniforms,
+    MaterialUniforms, MeteringUniforms, PlacementUniforms, RoomViewUniforms, SheetUniforms, VeilUniforms, ViewUniforms,
 };
 pub use modules::{
     ACCUMULATE, COMBINE, COPY, DISPLAY, ENCODED, ENLARGE, INTERFACE, MARKS, METER, MODULES, Module, PROBE, RESAMPLE,
-    ROOM, SHADOW, SHEET, SKY, SURFACE, WARP,
+    ROOM, SHADOW, SHEET, SKY, SURFACE, VEIL, WARP,
 };

@@ -89,6 +89,8 @@ pub const ENCODED: Module =
 /// Module that draws a sheet in a room over a channel's picture.
 pub const SHEET: Module =
     Module { name: "sheet", files: &[FULLSCREEN, ENCODE, TABLE, include_str!("../wgsl/sheet.wgsl")] };
+/// Module that darkens a channel's picture away from straight ahead.
+pub const VEIL: Module = Module { name: "veil", files: &[FULLSCREEN, include_str!("../wgsl/veil.wgsl")] };
 /// Module that draws the interface's triangles.
 pub const INTERFACE: Module = Module { name: "interface", files: &[ENCODE, include_str!("../wgsl/interface.wgsl")] };
 /// Module that resamples flat pictures for a surface that is not flat.
@@ -102,7 +104,7 @@ pub const MARKS: Module = Module { name: "marks", files: &[include_str!("../wgsl
 pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
 
 /// Every module, for tests that validate them.
-pub const MODULES: [Module; 17] = [
-    SHEET, SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, COMBINE, ROOM, ENCODED, INTERFACE, RESAMPLE,
-    ENLARGE, MARKS, PROBE,
+pub const MODULES: [Module; 18] = [
+    SHEET, VEIL, SURFACE, SKY, WARP, SHADOW, ACCUMULATE, COPY, METER, DISPLAY, COMBINE, ROOM, ENCODED, INTERFACE,
+    RESAMPLE, ENLARGE, MARKS, PROBE,
 ];

@@ -40,6 +40,8 @@ pub struct Headset {
     blend: xr::EnvironmentBlendMode,
     format: wgpu::TextureFormat,
     state: XrState,
+    /// True once the head's place has been tracked, and not made up by the runtime alone.
+    was_placed: bool,
     session: xr::Session<xr::Vulkan>,
     runtime: XrRuntime,
     // Kept until the session is gone.
@@ -54,6 +56,8 @@ pub struct HeadsetTurn {
     pub eyes: [HeadsetEye; 2],
     /// True if the frame will be seen.
     pub is_seen: bool,
+    /// True if the runtime sees the head. The place of one that tracks turns alone is always made up.
+    pub sees_head: bool,
     /// Time from one frame of the headset to the next.
     pub period: Duration,
     predicted: xr::Time,
@@ -91,7 +95,20 @@ impl Headset {
         let device = device.gpu.device.clone();
         let state = XrState::default();
         drop(refused);
-        Ok(Self { eyes, hands, head, waiter, stream, blend, format, state, session, runtime, device })
+        Ok(Self {
+            eyes,
+            hands,
+            head,
+            waiter,
+            stream,
+            blend,
+            format,
+            state,
+            was_placed: false,
+            session,
+            runtime,
+            device,
+        })
     }
 
     /// Format in which the pictures are written: sRGB as it is stored. The runtime reads the same bytes as sRGB.
@@ -126,12 +143,16 @@ impl Headset {
         let predicted = frame.predicted_display_time;
         let report = self.hands.report(&self.runtime, &self.session, predicted)?;
         let locate = |space: &xr::Space| self.session.locate_views(VIEWS, predicted, space).map_err(&refused);
-        let (of_head, views) = (locate(&self.head)?.1, locate(self.hands.stage())?.1);
+        let (of_head, (flags, views)) = (locate(&self.head)?.1, locate(self.hands.stage())?);
+        let is_placed = flags.contains(xr::ViewStateFlags::POSITION_TRACKED);
+        self.was_placed |= is_placed;
+        let known = xr::ViewStateFlags::POSITION_VALID | xr::ViewStateFlags::ORIENTATION_VALID;
+        let sees_head = flags.contains(known) && (is_placed || !self.was_placed);
         let [left, right] = of_head.as_slice() else { return Err(HeadsetError::Views(of_head.len())) };
         let eyes = [eye(left), eye(right)];
         let period =
             u64::try_from(frame.predicted_display_period.as_nanos()).map_or(Duration::ZERO, Duration::from_nanos);
-        Ok(Some(HeadsetTurn { report, eyes, is_seen: frame.should_render, period, predicted, views }))
+        Ok(Some(HeadsetTurn { report, eyes, is_seen: frame.should_render, sees_head, period, predicted, views }))
     }
 
     /// Shows a turn: `draw` draws and submits the picture of an eye, 0 left and 1 right, and leaves it as a target. It

@@ -7,6 +7,7 @@ use hardware::heard;
 use headset::{HeadsetError, HeadsetTurn};
 use input::{Sample, SampleSource};
 use render::display::Development;
+use walls::Veil;
 use words::{Language, Phrase};
 
 impl Open {
@@ -44,13 +45,18 @@ impl Open {
     /// # Errors
     /// A lost graphics device.
     pub(super) fn show_in_headset(&mut self, turn: &HeadsetTurn, development: &Development) -> Result<(), Error> {
-        let Some(session) = self.worn.as_mut().and_then(|worn| worn.session.as_mut()) else { return Ok(()) };
+        let Some(worn) = &mut self.worn else { return Ok(()) };
+        let Some(session) = &mut worn.session else { return Ok(()) };
         let (gpu, canvas) = (&self.gpu, &mut self.canvas);
+        // The window's copy does not fade.
+        let fade = Veil::everywhere(worn.fade.after(turn.report.time_ns, turn.sees_head));
+        canvas.walls_mut().into_iter().for_each(|walls| walls.fade = fade);
         let shown = session.show(turn, |eye, view| {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             canvas.show(gpu, &mut encoder, eye, development, view, [0, 0]);
             gpu.queue.submit([encoder.finish()]);
         });
+        canvas.walls_mut().into_iter().for_each(|walls| walls.fade = Veil::NONE);
         if let Err(error) = shown {
             self.lose_headset(&error);
         }

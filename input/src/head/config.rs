@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use super::flip::FlipAxis;
 use super::placement::{AxesPlacement, HEAD_FROM_SENSOR, ROOM_FROM_TRACKER, within};
+use super::stance::Stance;
 use super::tracking_mode::TrackingMode;
 use super::unit::LengthUnit;
 use super::url::TrackerUrl;
@@ -66,6 +67,14 @@ pub struct HeadConfig {
     /// Poses that become the straight one: at `home`, facing −z.
     #[serde(default, skip_serializing_if = "Recentring::is_never")]
     pub recentre: Recentring,
+    /// Stance of the rider, which says what of a straight pose is the seat's; seated in recordings made before one
+    /// could stand.
+    #[serde(default, skip_serializing_if = "Stance::is_seated")]
+    pub stance: Stance,
+    /// Step of the turn that a flick of the other hand's stick makes, degrees, with OpenXR; 0 for none, as in
+    /// recordings made before such turns.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub snap_turn_deg: f64,
     /// Edition of the rules by which the poses of the head count: since edition 2 its turn moves the eyes, and real
     /// time is the head's own; since edition 3 poses that can only be in another unit are rejected. Recordings without
     /// it are of edition 1.
@@ -79,6 +88,13 @@ pub struct HeadConfig {
 fn is_false(flag: &bool) -> bool {
     !flag
 }
+
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
+}
+
+/// Largest step of a turn, degrees.
+const LARGEST_STEP_DEG: f64 = 180.0;
 
 /// Present edition of the rules by which the poses of the head count.
 pub const HEAD_EDITION: u32 = 3;
@@ -240,6 +256,8 @@ impl HeadConfig {
             fade_s: fade_s(),
             home: home(),
             recentre: Recentring::default(),
+            stance: Stance::default(),
+            snap_turn_deg: 0.0,
             edition: HEAD_EDITION,
             wand: None,
         }
@@ -248,6 +266,11 @@ impl HeadConfig {
     /// True if the turn of the head moves the eyes, and real time is the head's own.
     pub fn counts_turn_and_clock(&self) -> bool {
         self.edition >= 2
+    }
+
+    /// True if turns in steps of this size can be made, degrees.
+    pub(crate) fn steps_by(degrees: f64) -> bool {
+        (0.0..=LARGEST_STEP_DEG).contains(&degrees)
     }
 
     /// VRPN devices of the wand other than the head's, each once; none without a wand or a server.
@@ -327,6 +350,10 @@ impl HeadConfig {
                 let expected = "nothing with url = \"mouse\", which moves the head itself from `home`";
                 return Err(ConfigError { key: keys.position, value, expected });
             }
+        }
+        if !Self::steps_by(self.snap_turn_deg) {
+            let expected = "an angle from 0, for no turns in steps, to 180 degrees";
+            return Err(ConfigError { key: "tracker.snap_turn_deg", value: self.snap_turn_deg.to_string(), expected });
         }
         self.velocity.check()?;
         positive("tracker.fade_s", self.fade_s)?;
