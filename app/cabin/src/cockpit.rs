@@ -115,3 +115,175 @@ fn ink(off_rad: f64, pixel_rad: f64) -> [u8; 4] {
     let [red, green, blue] = INK.map(|part| (part * line).round() as u8);
     [red, green, blue, (255.0 * (line + seam * (1.0 - line))).round() as u8]
 }
+
+#[cfg(test)]
+mod tests {
+    //! Laws: each eye of a headset sees each point of the hoop where plain geometry says, wherever the head is and
+    //! looks; a vignette darkens the light by its angle and leaves the lines; a fade takes both; without any of them a
+    //! picture is as it was. A wrong program nails the lines to the head, or shows each eye the other's.
+    #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
+
+    use super::*;
+    use built_in::lattice::Lattice;
+    use glam::{DMat3, DQuat};
+    use image::RgbaImage;
+    use physics::worldline::{Thrust, WorldlineState};
+    use physics::{Celerity, Event};
+    use render::SceneRenderer;
+    use render::display::Development;
+    use render::picture::SCREEN_FORMAT;
+    use render::target::Format;
+    use room::{Display, HeadsetEye};
+    use view::{Dial, Effects, Occasion};
+    use walls::{Occupant, Quality, RoomHead, Veil, Walls};
+
+    /// Width and height of an eye's picture, pixels.
+    const SIDE: u32 = 400;
+    /// Largest distance of a line from its place, pixels.
+    const PLACE_PIXELS: f64 = 0.6;
+    /// Pixels about a line's place in which it is looked for.
+    const REACH: i32 = 4;
+
+    struct Seat {
+        gpu: Gpu,
+        walls: Walls,
+        renderer: SceneRenderer,
+        lines: RoomSheet,
+    }
+
+    impl Seat {
+        fn new() -> Self {
+            let gpu = Gpu::new().unwrap();
+            let display = Display::headset("headset", &HeadsetEye::USUAL, [[SIDE; 2]; 2]);
+            let lines = cockpit(&gpu, display.viewer.head_m, f64::from(SIDE) / 2.0);
+            let format = Format::fast(1);
+            let scene = Lattice { count: [3, 3, 3], spacing: 4.0, side: 1.4 }.build();
+            let renderer = SceneRenderer::new(&gpu, scene, format, None, Dial::map(1.0), Occasion::Ride).unwrap();
+            let quality = Quality { format, samples: 1, density: 1.0, smooth: true };
+            let mut walls = Walls::new(&gpu, display, quality, SCREEN_FORMAT);
+            walls.headset = Some(HeadsetEye::USUAL);
+            Self { gpu, walls, renderer, lines }
+        }
+
+        /// Draws the light that this head sees.
+        fn look(&mut self, head: RoomHead) {
+            let event = Event { ct: 0.0, position: DVec3::new(0.4, -1.1, 9.0) };
+            let vehicle = WorldlineState::new(event, Celerity::ZERO, DQuat::IDENTITY);
+            let occupant = Occupant { vehicle, thrust: Thrust::default(), head };
+            let Self { gpu, walls, renderer, .. } = self;
+            for _ in 0..3 {
+                let submitted = walls.submit(gpu, renderer, &occupant, Effects::ALL).unwrap();
+                walls.draw(gpu, renderer, submitted).unwrap();
+                renderer.settle();
+            }
+            walls.adapt(gpu, &Development::default(), None);
+        }
+
+        /// Pictures of both eyes with these lines and veils.
+        fn pictures(&mut self, lines: bool, vignette: Veil, fade: Veil) -> [RgbaImage; 2] {
+            let Self { gpu, walls, lines: sheet, .. } = self;
+            walls.sheets = if lines { vec![sheet.clone()] } else { Vec::new() };
+            (walls.vignette, walls.fade) = (vignette, fade);
+            [0, 1].map(|eye| walls.develop(gpu, eye, &Development::default()).unwrap())
+        }
+    }
+
+    /// Place of a point of the room in the picture of an eye, pixels; `None` where it does not show it with all that
+    /// is about it.
+    fn place(point: DVec3, head: &RoomHead, eye: &HeadsetEye) -> Option<DVec2> {
+        let of_eye = head.room_from_head.transpose() * (point - head.place_m) - eye.position_m;
+        let tangents = DVec2::new(of_eye.x, -of_eye.y) / -of_eye.z;
+        let pixel = (tangents + 1.0) * 0.5 * f64::from(SIDE);
+        let inside = f64::from(REACH + 2)..f64::from(SIDE as i32 - REACH - 2);
+        (of_eye.z < -0.1 && inside.contains(&pixel.x) && inside.contains(&pixel.y)).then_some(pixel)
+    }
+
+    fn heads() -> [RoomHead; 4] {
+        let seat = RoomHead::at_rest(Display::headset("headset", &HeadsetEye::USUAL, [[1; 2]; 2]).viewer.head_m);
+        let looks = |yaw: f64, pitch: f64| DMat3::from_quat(DQuat::from_rotation_y(yaw) * DQuat::from_rotation_x(pitch));
+        [
+            seat,
+            RoomHead { room_from_head: looks(0.0, -0.5), ..seat },
+            RoomHead { room_from_head: looks(0.9, -0.4), place_m: seat.place_m + DVec3::new(-0.1, 0.05, -0.15) },
+            RoomHead { room_from_head: looks(-1.4, -0.3), place_m: seat.place_m + DVec3::new(0.15, -0.1, 0.1) },
+        ]
+    }
+
+    #[test]
+    fn each_eye_sees_the_hoop_where_it_is() {
+        let mut seat = Seat::new();
+        let seat_m = seat.walls.display.viewer.head_m;
+        let mut seen = [0, 0];
+        for head in heads() {
+            seat.look(head);
+            let without = seat.pictures(false, Veil::NONE, Veil::NONE);
+            // Before black, a line is all that is bright.
+            let black = Veil::everywhere(1.0);
+            let with = seat.pictures(true, black, Veil::NONE);
+            for ((number, eye), (with, without)) in HeadsetEye::USUAL.iter().enumerate().zip(with.iter().zip(&without)) {
+                // Between the marks, which are 10° apart.
+                for degrees in (5..360).step_by(10) {
+                    let angle = f64::from(degrees).to_radians();
+                    let (right, ahead) = (ASIDE_M * angle.sin(), angle.cos());
+                    let ahead = ahead * if ahead < 0.0 { BEHIND_M } else { AHEAD_M };
+                    let point = seat_m + DVec3::new(right, -BELOW_M, -ahead);
+                    let Some(at) = place(point, &head, eye) else { continue };
+                    // The line's direction in the picture, from a point close by.
+                    let near = angle + 0.01;
+                    let (right, ahead) = (ASIDE_M * near.sin(), near.cos());
+                    let ahead = ahead * if ahead < 0.0 { BEHIND_M } else { AHEAD_M };
+                    let Some(next) = place(seat_m + DVec3::new(right, -BELOW_M, -ahead), &head, eye) else { continue };
+                    let across = (next - at).normalize().perp();
+                    // The middle of the brightness across the line is its place.
+                    let (mut sum, mut moment) = (0.0, 0.0);
+                    for (x, y) in (-REACH..=REACH).flat_map(|x| (-REACH..=REACH).map(move |y| (x, y))) {
+                        let pixel = (at.floor().as_ivec2() + glam::IVec2::new(x, y)).as_uvec2();
+                        let bright = f64::from(with.get_pixel(pixel.x, pixel.y).0[1]);
+                        let off = pixel.as_dvec2() + 0.5 - at;
+                        if off.length() <= f64::from(REACH) {
+                            sum += bright;
+                            moment += bright * off.dot(across);
+                        }
+                    }
+                    assert!(sum > 500.0, "eye {number}, {degrees}°: nothing at {at}");
+                    let off = moment / sum;
+                    assert!(off.abs() < PLACE_PIXELS, "eye {number}, {degrees}°: {off} pixels from {at}");
+                    seen[number] += 1;
+                }
+                // A line hides little.
+                let lit = with.pixels().filter(|pixel| pixel.0[1] > 8).count();
+                assert!(lit * 25 < without.pixels().len(), "{lit} pixels");
+            }
+        }
+        assert!(seen.iter().all(|seen| *seen > 30), "{seen:?}");
+    }
+
+    #[test]
+    fn a_vignette_darkens_the_light_and_leaves_the_lines_and_a_fade_takes_all() {
+        let mut seat = Seat::new();
+        seat.look(heads()[1]);
+        let plain = seat.pictures(false, Veil::NONE, Veil::NONE);
+        let veil = Veil { angles_rad: [0.25, 0.6], opacity: 1.0 };
+        let veiled = seat.pictures(false, veil, Veil::NONE);
+        let lined = seat.pictures(true, veil, Veil::NONE);
+        let (mut dimmed, mut kept) = (0, 0);
+        for (eye, (plain, veiled)) in plain.iter().zip(&veiled).enumerate() {
+            for (x, y, before) in plain.enumerate_pixels() {
+                let tangents = (DVec2::new(x.into(), y.into()) + 0.5) / f64::from(SIDE) * 2.0 - 1.0;
+                let share = 1.0 - veil.opacity_at(tangents.length().atan());
+                for (before, after) in before.0[..3].iter().zip(&veiled.get_pixel(x, y).0[..3]) {
+                    let (expected, after) = (f64::from(*before) * share, f64::from(*after));
+                    assert!((expected - after).abs() <= 1.5, "eye {eye}, pixel {x}, {y}: {after} for {expected}");
+                    assert!(share < 1.0 || expected == after, "eye {eye}, pixel {x}, {y}");
+                }
+                dimmed += usize::from(before.0[1] > 40 && share < 0.2);
+                kept += usize::from(share == 0.0 && lined[eye].get_pixel(x, y).0[1] > 150);
+            }
+        }
+        assert!(dimmed > 1000 && kept > 50, "{dimmed} pixels are dimmed, {kept} show lines in the dark");
+        for picture in seat.pictures(true, Veil::NONE, Veil::everywhere(1.0)) {
+            assert!(picture.pixels().all(|pixel| pixel.0[..3] == [0; 3]));
+        }
+        assert_eq!(seat.pictures(false, Veil::NONE, Veil::NONE), plain);
+    }
+}

@@ -3,7 +3,7 @@
 use super::open::Open;
 use crate::canvas::Canvas;
 use crate::frame::RideInProgress;
-use interface::{MenuRide, Readings};
+use interface::{MenuComfort, MenuRide, Readings};
 use room::EyeBehind;
 use tours::TourPlan;
 use words::{Language, Phrase};
