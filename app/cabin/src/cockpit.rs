@@ -200,12 +200,17 @@ mod tests {
 
     fn heads() -> [RoomHead; 4] {
         let seat = RoomHead::at_rest(Display::headset("headset", &HeadsetEye::USUAL, [[1; 2]; 2]).viewer.head_m);
-        let looks = |yaw: f64, pitch: f64| DMat3::from_quat(DQuat::from_rotation_y(yaw) * DQuat::from_rotation_x(pitch));
+        let looks =
+            |yaw: f64, pitch: f64| DMat3::from_quat(DQuat::from_rotation_y(yaw) * DQuat::from_rotation_x(pitch));
         [
             seat,
             RoomHead { room_from_head: looks(0.0, -0.5), ..seat },
-            RoomHead { room_from_head: looks(0.9, -0.4), place_m: seat.place_m + DVec3::new(-0.1, 0.05, -0.15) },
-            RoomHead { room_from_head: looks(-1.4, -0.3), place_m: seat.place_m + DVec3::new(0.15, -0.1, 0.1) },
+            RoomHead {
+                room_from_head: looks(0.9, -0.4),
+                place_m: seat.place_m + DVec3::new(-0.1, 0.05, -0.15),
+                ..seat
+            },
+            RoomHead { room_from_head: looks(-1.4, -0.3), place_m: seat.place_m + DVec3::new(0.15, -0.1, 0.1), ..seat },
         ]
     }
 
@@ -220,7 +225,8 @@ mod tests {
             // Before black, a line is all that is bright.
             let black = Veil::everywhere(1.0);
             let with = seat.pictures(true, black, Veil::NONE);
-            for ((number, eye), (with, without)) in HeadsetEye::USUAL.iter().enumerate().zip(with.iter().zip(&without)) {
+            for ((number, eye), (with, without)) in HeadsetEye::USUAL.iter().enumerate().zip(with.iter().zip(&without))
+            {
                 // Between the marks, which are 10° apart.
                 for degrees in (5..360).step_by(10) {
                     let angle = f64::from(degrees).to_radians();
