@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::head::config::HeadConfig;
+use crate::head::snap_step::is_step;
 use crate::head::stance::Stance;
 use crate::head::tracking_mode::TrackingMode;
 
@@ -224,7 +224,7 @@ impl Action {
             Self::ScaleTime(factor) | Self::SpeedOfLight(factor) => factor.is_finite() && *factor > 0.0,
             Self::Thrust(axes) => axes.iter().all(|axis| (-1.0..=1.0).contains(axis)),
             Self::Expose(stops) => stops.is_finite(),
-            Self::SnapTurn(degrees) => HeadConfig::steps_by(*degrees),
+            Self::SnapTurn(degrees) => is_step(*degrees),
             Self::Orbit { turn_rad, closer } => {
                 turn_rad.iter().all(|turn| turn.is_finite()) && closer.is_finite() && *closer > 0.0
             }

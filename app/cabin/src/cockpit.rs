@@ -1,8 +1,8 @@
 //! Lines of the vehicle about its rider: a hoop below the eyes with marks, which rests in the vehicle and is something
 //! to hold on to with the eyes while the world bends and turns.
 //!
-//! The hoop lies in a level plane, so all of it is one sheet ([`RoomSheet`]), which each eye sees where it is. Its lines
-//! are drawn as wide as they are to look equally wide from the seat all around, and never finer than the screen's
+//! The hoop lies in a level plane, so all of it is one sheet ([`RoomSheet`]), which each eye sees where it is. Its
+//! lines are drawn so wide that they look equally wide from the seat all around, and never finer than the screen's
 //! pixels, or they would break up where the plane is seen flat.
 
 use glam::{DVec2, DVec3};
@@ -32,8 +32,8 @@ const OPACITIES: [f64; 2] = [0.85, 0.4];
 /// Most texels along the sheet.
 const MOST_TEXELS: f64 = 1536.0;
 
-/// Sheet with the lines, for a seat whose eyes are at `head_m`, room axes, metres. `pixels_per_rad`: those of the finest
-/// screen.
+/// Sheet with the lines, for a seat whose eyes are at `head_m`, room axes, metres. `pixels_per_rad`: those of the
+/// finest screen.
 pub fn cockpit(gpu: &Gpu, head_m: DVec3, pixels_per_rad: f64) -> RoomSheet {
     let size = DVec2::new(2.0 * ASIDE_M, AHEAD_M + BEHIND_M) + 2.0 * BORDER_M;
     // A pixel of the screen, and a texel of the sheet, where the hoop is nearest.

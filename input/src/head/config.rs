@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use super::flip::FlipAxis;
 use super::placement::{AxesPlacement, HEAD_FROM_SENSOR, ROOM_FROM_TRACKER, within};
+use super::snap_step::is_step;
 use super::stance::Stance;
 use super::tracking_mode::TrackingMode;
 use super::unit::LengthUnit;
@@ -92,9 +93,6 @@ fn is_false(flag: &bool) -> bool {
 fn is_zero(number: &f64) -> bool {
     *number == 0.0
 }
-
-/// Largest step of a turn, degrees.
-const LARGEST_STEP_DEG: f64 = 180.0;
 
 /// Present edition of the rules by which the poses of the head count.
 pub const HEAD_EDITION: u32 = 3;
@@ -268,11 +266,6 @@ impl HeadConfig {
         self.edition >= 2
     }
 
-    /// True if turns in steps of this size can be made, degrees.
-    pub(crate) fn steps_by(degrees: f64) -> bool {
-        (0.0..=LARGEST_STEP_DEG).contains(&degrees)
-    }
-
     /// VRPN devices of the wand other than the head's, each once; none without a wand or a server.
     pub fn wand_devices(&self) -> Vec<String> {
         let (TrackerUrl::Vrpn { device, .. }, Some(wand)) = (&self.url, &self.wand) else {
@@ -351,7 +344,7 @@ impl HeadConfig {
                 return Err(ConfigError { key: keys.position, value, expected });
             }
         }
-        if !Self::steps_by(self.snap_turn_deg) {
+        if !is_step(self.snap_turn_deg) {
             let expected = "an angle from 0, for no turns in steps, to 180 degrees";
             return Err(ConfigError { key: "tracker.snap_turn_deg", value: self.snap_turn_deg.to_string(), expected });
         }

@@ -29,6 +29,7 @@ pub(crate) mod mouse_event;
 pub(crate) mod placement;
 pub(crate) mod rigid;
 mod seen;
+pub(crate) mod snap_step;
 pub(crate) mod stance;
 pub(crate) mod state;
 #[cfg(test)]

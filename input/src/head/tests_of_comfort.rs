@@ -39,8 +39,10 @@ fn head(stance: Stance, velocity: VelocityFilter) -> TrackedHead {
 /// Pose of frame `number` of somebody who walks in circles, looks about and nods, far from the origin.
 fn walked(number: u64) -> TrackedPose {
     let time = number as f64 / 90.0;
-    let position = DVec3::new(3.0 + 0.4 * (2.0 * time).sin(), 1.62 + 0.02 * (9.0 * time).cos(), -5.0 + 0.3 * time);
-    let turn = DQuat::from_rotation_y(1.1 + 0.9 * (1.3 * time).sin()) * DQuat::from_rotation_x(0.3 * time.cos());
+    let position =
+        DVec3::new(3.0 + 0.4 * libm::sin(2.0 * time), 1.62 + 0.02 * libm::cos(9.0 * time), -5.0 + 0.3 * time);
+    let turn =
+        DQuat::from_rotation_y(1.1 + 0.9 * libm::sin(1.3 * time)) * DQuat::from_rotation_x(0.3 * libm::cos(time));
     pose(number, position, turn)
 }
 

@@ -7,6 +7,7 @@ use super::flip::mirrored;
 use super::placement::{FARTHEST_M, UNIT_LENGTHS};
 use super::rigid::Rigid;
 use super::seen::{PoseError, PoseInterval, SeenPose};
+use super::snap_step::is_step;
 use super::stance::Stance;
 use super::state::{HeadState, Tracking};
 use super::tracked_pose::TrackedPose;
@@ -132,7 +133,7 @@ impl TrackedHead {
 
     /// Makes a step of the turn this large from now on, degrees; 0 for none. A size that no step has is passed over.
     pub fn snap_by(&mut self, degrees: f64) {
-        if HeadConfig::steps_by(degrees) {
+        if is_step(degrees) {
             self.config.snap_turn_deg = degrees;
         }
     }

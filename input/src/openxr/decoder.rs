@@ -43,8 +43,8 @@ impl OpenxrDecoder {
         std::mem::take(&mut self.wand_signals)
     }
 
-    /// Flicks of the stick of the hand that is not the wand, in the report fed last: those to the left less those to the
-    /// right.
+    /// Flicks of the stick of the hand that is not the wand, in the report fed last: those to the left less those to
+    /// the right.
     pub fn take_flicks(&mut self) -> i32 {
         std::mem::take(&mut self.flicks)
     }
