@@ -43,6 +43,9 @@ mod tests {
     //! missing, or shows a world that is nailed to the head.
     use super::*;
 
+    /// Time for which the pictures stay whole, and time of the fade, seconds.
+    const WHOLE_S: f64 = 0.15;
+    const FADING_S: f64 = 0.3;
     /// Rounding of times that are added up.
     const ROUNDING: f64 = 1e-6;
 
@@ -61,14 +64,14 @@ mod tests {
             let shares = taken(rate_hz, 3.0, |time| time < lost_s || time >= found_s);
             for &(time, share) in &shares {
                 let (unseen_s, seen_s) = (time - lost_s, time - found_s);
-                let whole = unseen_s < GRACE_S - period_s - ROUNDING || seen_s > FADE_S + period_s + ROUNDING;
-                let black = unseen_s > GRACE_S + FADE_S + period_s + ROUNDING && seen_s < -ROUNDING;
+                let whole = unseen_s < WHOLE_S - period_s - ROUNDING || seen_s > FADING_S + period_s + ROUNDING;
+                let black = unseen_s > WHOLE_S + FADING_S + period_s + ROUNDING && seen_s < -ROUNDING;
                 assert!(!whole || share == 0.0, "{rate_hz} Hz, {time} s: {share}");
                 assert!(!black || share == 1.0, "{rate_hz} Hz, {time} s: {share}");
             }
             // Neither way is a leap.
             let steepest = shares.windows(2).map(|two| (two[1].1 - two[0].1).abs()).fold(0.0, f64::max);
-            assert!(steepest < 1.5 * period_s / FADE_S + ROUNDING, "{rate_hz} Hz: {steepest}");
+            assert!(steepest < 1.5 * period_s / FADING_S + ROUNDING, "{rate_hz} Hz: {steepest}");
         }
     }
 
