@@ -5,6 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::head::snap_step::is_step;
+use crate::head::stance::Stance;
 use crate::head::tracking_mode::TrackingMode;
 
 /// Vehicle that the controls drive.
@@ -42,6 +44,8 @@ pub enum Setting {
     Language,
     /// Value that the colours of the view from outside show.
     Colouring,
+    /// Darkening of the edges of a headset's pictures with motion that is not felt.
+    Vignette,
     /// One of three views: seen, measured, instant. The switches of the light stay as they are.
     View,
 }
@@ -74,6 +78,8 @@ pub enum Switch {
     Clocks,
     /// Planner, which says when to turn round.
     Planner,
+    /// Lines of the vehicle about the rider, in a headset or a room.
+    Cockpit,
 }
 
 /// Direction in which the focus of a menu moves.
@@ -121,6 +127,10 @@ pub enum Action {
     Tracking(TrackingMode),
     /// The next use of the tracked head: place and velocity, place alone, none.
     NextTracking,
+    /// Stance of a rider in a headset; the present pose is the straight one of that stance.
+    Stance(Stance),
+    /// Step of the turn that a flick of the other hand's stick makes, degrees, 0 to 180; 0 for none.
+    SnapTurn(f64),
     /// Return to the start.
     Restart,
     /// Place of the world to be at rest at.
@@ -214,6 +224,7 @@ impl Action {
             Self::ScaleTime(factor) | Self::SpeedOfLight(factor) => factor.is_finite() && *factor > 0.0,
             Self::Thrust(axes) => axes.iter().all(|axis| (-1.0..=1.0).contains(axis)),
             Self::Expose(stops) => stops.is_finite(),
+            Self::SnapTurn(degrees) => is_step(*degrees),
             Self::Orbit { turn_rad, closer } => {
                 turn_rad.iter().all(|turn| turn.is_finite()) && closer.is_finite() && *closer > 0.0
             }

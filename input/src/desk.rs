@@ -8,6 +8,7 @@
 //! would lean: at the speed v no further than tan δ = a L / v².
 //!
 //! Keys, the mouse and a gamepad's second stick turn the rider's look, unless a tracked head decides where it goes.
+//! A flick of the stick of the hand that is not the wand turns a headset's rider in the vehicle by a step.
 //!
 //! A tracker's poses go to the one [`TrackedHead`], if one is configured.
 
@@ -151,6 +152,8 @@ impl Desk {
                 Action::Recentre => self.recentres = true,
                 Action::Tracking(mode) => self.tracking = self.tracking.map(|_| *mode),
                 Action::NextTracking => self.tracking = self.tracking.map(TrackingMode::next),
+                Action::Stance(stance) => self.head.iter_mut().for_each(|head| head.take_stance(*stance)),
+                Action::SnapTurn(degrees) => self.head.iter_mut().for_each(|head| head.snap_by(*degrees)),
                 _ => {}
             }
         }
@@ -226,6 +229,7 @@ impl Desk {
             SampleSource::Openxr => (self.openxr.take_poses(), self.openxr.take_wand_signals()),
             _ => return,
         };
+        let flicks = self.openxr.take_flicks();
         let Some(head) = self.head.as_mut().filter(|head| head.config().url.source() == sample.source) else {
             return;
         };
@@ -234,6 +238,7 @@ impl Desk {
             self.wand.iter_mut().for_each(TrackedWand::axes_moved);
         }
         poses.iter().for_each(|pose| head.pose(pose));
+        head.snap_turn(flicks);
         if !matches!(sample.signal, Signal::Bytes(_)) {
             head.gone(sample.at);
         }

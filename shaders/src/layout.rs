@@ -205,6 +205,27 @@ pub struct SheetUniforms {
     pub viewport: Vec4,
 }
 
+/// Veil before a flat channel's picture, which darkens it away from straight ahead. Axes of the room, metres.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct VeilUniforms {
+    /// Position of the eye; w unused.
+    pub eye: Vec4,
+    /// Unit vector straight ahead; w unused.
+    pub ahead: Vec4,
+    /// Lower left corner of the screen's picture; w unused.
+    pub screen_corner: Vec4,
+    /// Vector along the lower edge of the screen's picture; w unused.
+    pub screen_right: Vec4,
+    /// Vector along the left edge of the screen's picture; w unused.
+    pub screen_up: Vec4,
+    /// Rectangle of the channel's picture: x, y, width, height, pixels.
+    pub viewport: Vec4,
+    /// x = angle up to which nothing is darkened, y = angle from which on all is, radians; z = share of the signal that
+    /// is taken there; w unused.
+    pub shade: Vec4,
+}
+
 /// Camera from which a room is seen.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]

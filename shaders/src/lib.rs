@@ -23,9 +23,9 @@ pub use constants::{
 };
 pub use layout::{
     AccumulateUniforms, AdaptationState, AtlasTile, FacetUniforms, InterfaceUniforms, LightingUniforms, MapUniforms,
-    MaterialUniforms, MeteringUniforms, PlacementUniforms, RoomViewUniforms, SheetUniforms, ViewUniforms,
+    MaterialUniforms, MeteringUniforms, PlacementUniforms, RoomViewUniforms, SheetUniforms, VeilUniforms, ViewUniforms,
 };
 pub use modules::{
     ACCUMULATE, COMBINE, COPY, DISPLAY, DISPLAY_VIEWS, ENCODED, ENLARGE, HIDDEN, INTERFACE, MARKS, METER, MODULES,
-    Module, PROBE, RESAMPLE, ROOM, SCENE_DEPTH, SHADOW, SHEET, SKY, SURFACE, VIEW_NUMBER, WARP,
+    Module, PROBE, RESAMPLE, ROOM, SCENE_DEPTH, SHADOW, SHEET, SKY, SURFACE, VEIL, VIEW_NUMBER, WARP,
 };

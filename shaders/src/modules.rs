@@ -97,6 +97,8 @@ pub const ENCODED: Module =
 /// Module that draws a sheet in a room over a channel's picture.
 pub const SHEET: Module =
     Module { name: "sheet", files: &[FULLSCREEN, ENCODE, TABLE, include_str!("../wgsl/sheet.wgsl")] };
+/// Module that darkens a channel's picture away from straight ahead.
+pub const VEIL: Module = Module { name: "veil", files: &[FULLSCREEN, include_str!("../wgsl/veil.wgsl")] };
 /// Module that draws the interface's triangles.
 pub const INTERFACE: Module = Module { name: "interface", files: &[ENCODE, include_str!("../wgsl/interface.wgsl")] };
 /// Module that resamples flat pictures for a surface that is not flat.
@@ -110,8 +112,9 @@ pub const MARKS: Module = Module { name: "marks", files: &[include_str!("../wgsl
 pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
 
 /// Every module, for tests that validate them.
-pub const MODULES: [Module; 21] = [
+pub const MODULES: [Module; 22] = [
     SHEET,
+    VEIL,
     SURFACE,
     SKY,
     WARP,

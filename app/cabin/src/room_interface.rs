@@ -1,6 +1,7 @@
 //! Interface of a room: sheets that float in the vehicle, which every eye sees on every screen, and the pointer that
 //! chooses on them.
 
+use crate::cockpit::cockpit;
 use crate::guide::Guide;
 use glam::{DQuat, DVec2, DVec3};
 use input::head::Tracking;
@@ -66,6 +67,9 @@ pub struct RoomInterface {
     help: PlacedSheet,
     guide: PlacedSheet,
     caption: PlacedSheet,
+    /// Lines of the vehicle, once they have been shown.
+    cockpit: Option<RoomSheet>,
+    pixels_per_rad: f64,
     /// True if the pointer is on a sheet.
     pointed_at: bool,
     beam: wgpu::TextureView,
@@ -108,7 +112,8 @@ impl RoomInterface {
     /// Sheets about the viewer of a display.
     pub fn new(gpu: &Gpu, display: &Display) -> Self {
         let amber = [255, 179, 71, 255];
-        let fine = (gpu, pixels_per_rad(display));
+        let pixels_per_rad = pixels_per_rad(display);
+        let fine = (gpu, pixels_per_rad);
         Self {
             head_m: display.viewer.head_m,
             readings: PlacedSheet::new(fine, [700.0, 210.0], [0.0, -31.0], [2.0, 2.4]),
@@ -116,6 +121,8 @@ impl RoomInterface {
             help: PlacedSheet::new(fine, [840.0, 940.0], [-69.0, 0.0], [1.6, 1.95]),
             guide: PlacedSheet::new(fine, [720.0, 460.0], [61.0, 0.0], [1.6, 2.0]),
             caption: PlacedSheet::new(fine, [560.0, 220.0], [0.0, -9.0], [1.6, 1.5]),
+            cockpit: None,
+            pixels_per_rad,
             pointed_at: false,
             beam: render::view_from_rows(gpu, "beam", [1, 1, 1], wgpu::TextureFormat::Rgba8Unorm, &amber),
         }
@@ -132,6 +139,10 @@ impl RoomInterface {
     ) -> (Vec<RoomSheet>, Vec<Action>) {
         let Shown { presentation, readings, menu, caption, clocks, keys, now_s } = *shown;
         let (mut sheets, mut actions) = (Vec::new(), Vec::new());
+        if presentation.cockpit {
+            let (head_m, pixels_per_rad) = (self.head_m, self.pixels_per_rad);
+            sheets.push(self.cockpit.get_or_insert_with(|| cockpit(gpu, head_m, pixels_per_rad)).clone());
+        }
         if presentation.readings {
             self.readings
                 .drawn

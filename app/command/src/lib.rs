@@ -12,6 +12,7 @@
 //! assert_eq!(options.viewpoint.celerity().gamma(), 1.25);
 //! ```
 
+mod comfort;
 mod dial;
 mod frame_rate;
 mod kiosk;
@@ -26,6 +27,7 @@ mod room;
 mod values;
 mod world;
 
+pub use comfort::ComfortOptions;
 pub use dial::{DialOptions, map_scale_of_stills, map_scale_of_windows};
 pub use frame_rate::FrameRate;
 pub use kiosk::KioskOptions;

@@ -14,7 +14,7 @@ use super::ride::{RideOptions, VehicleName};
 use super::values::Output;
 use super::world::{SceneChoice, WorldOptions};
 use input::TrackerUrl;
-use presentation::Latency;
+use presentation::{Latency, Vignette};
 use render::display::Development;
 use ride::Nose;
 use view::{Effects, RendererName, Transform};
@@ -88,7 +88,24 @@ impl RideOptions {
                 passed.note(other, "--tracker", "the headset's runtime tracks the head");
             }
         }
+        self.pass_over_comfort(films, &mut passed);
         passed.0
+    }
+
+    /// Comfort that nothing of this ride has.
+    fn pass_over_comfort(&self, films: bool, passed: &mut Passed) {
+        let comfort = &self.comfort;
+        let (headset, devices) = ("it is for a headset: --headset", &self.devices);
+        passed.note(!self.is_headset() && comfort.vignette != Vignette::Off, "--vignette", headset);
+        passed.note(
+            comfort.cockpit == Some(true) && (films || self.display.is_none()),
+            "--cockpit",
+            "it is for a headset or a room: --display",
+        );
+        // A set-up may name the headset as the tracker.
+        let tracked = self.is_headset() || devices.tracker == Some(TrackerUrl::Openxr) || devices.set_up.is_some();
+        passed.note(!tracked && comfort.snap_turn.is_some(), "--snap-turn", headset);
+        passed.note(!tracked && comfort.stance.is_some(), "--stance", headset);
     }
 }
 

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::comfort::ComfortOptions;
 use super::dial::{DialOptions, map_scale_of_windows};
 use super::frame_rate::FrameRate;
 use super::kiosk::KioskOptions;
@@ -17,9 +18,9 @@ use scene::Start;
 use view::{Dial, Occasion, RendererName};
 use words::Language;
 
-/// Samples per pixel in a window drawn by hardware, where they cost little. A software driver draws one.
 /// Name of the display that is the headset of this machine.
 pub const HEADSET: &str = "openxr";
+/// Samples per pixel in a window drawn by hardware, where they cost little. A software driver draws one.
 const HARDWARE_SAMPLES: u32 = 4;
 
 /// Kind of vehicle that carries the observer.
@@ -116,6 +117,9 @@ pub struct RideOptions {
     /// Options of the picture.
     #[command(flatten)]
     pub picture: PictureOptions,
+    /// Options of comfort in a headset.
+    #[command(flatten)]
+    pub comfort: ComfortOptions,
     /// True if the command line has an option for the renderer or one of its dials.
     #[arg(skip)]
     pub drawing_is_given: bool,
@@ -155,6 +159,8 @@ impl RideOptions {
         Presentation {
             latency: self.latency,
             language: self.language.unwrap_or_default(),
+            vignette: self.comfort.vignette,
+            cockpit: self.comfort.cockpit.unwrap_or(self.is_headset()),
             ..self.picture.presentation(start)
         }
     }

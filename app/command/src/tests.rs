@@ -10,7 +10,9 @@ use glam::DVec3;
 use view::{Effects, RendererName};
 
 use super::*;
-use presentation::Latency;
+use input::head::Stance;
+use presentation::{Latency, Vignette};
+use scene::Start;
 
 /// Parses a line of words; an underscore stands for a space within a word.
 fn parse(line: &str) -> Result<Command, Stop> {
@@ -309,4 +311,28 @@ fn help_is_no_mistake() {
         assert!(matches!(parse(line), Err(Stop::Help(error)) if !error.use_stderr()), "{line}");
     }
     assert!(matches!(parse_from(["rapidity"]), Err(Stop::Help(_))));
+}
+
+#[test]
+fn comfort_is_that_of_a_headset_unless_it_is_said_otherwise() {
+    let start =
+        Start { position: DVec3::ZERO, look: DVec3::NEG_Z, up: DVec3::Y, eye_height_m: 1.7, field_of_view_rad: None };
+    let [desk, worn] = ["", "--headset"].map(|options| ride(options).presentation(&start));
+    assert_eq!((desk.vignette, desk.cockpit, worn.vignette, worn.cockpit), (Vignette::Off, false, Vignette::Off, true));
+    let asked = ride("--headset --vignette strong --cockpit off --snap-turn 0 --stance standing");
+    let shown = asked.presentation(&start);
+    assert_eq!((shown.vignette, shown.cockpit), (Vignette::Strong, false));
+    assert_eq!((asked.comfort.snap_turn, asked.comfort.stance), (Some(0.0), Some(Stance::Standing)));
+    assert_eq!(asked.passed_over(false), Vec::<String>::new());
+    let vain = ride("--vignette weak --cockpit on --snap-turn 45 --stance seated").passed_over(false);
+    assert_eq!(vain.len(), 4, "{vain:?}");
+    assert_eq!(ride("--tracker openxr:// --snap-turn 45 --stance seated").passed_over(false), Vec::<String>::new());
+    for (line, told) in [
+        ("--snap-turn 181", "from 0 to 180"),
+        ("--stance lying", "seated or standing"),
+        ("--cockpit yes", "on or off"),
+        ("--vignette black", "vignette"),
+    ] {
+        assert!(refusal(&format!("ride {line}")).contains(told), "{line}: {}", refusal(&format!("ride {line}")));
+    }
 }

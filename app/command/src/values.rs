@@ -65,6 +65,9 @@ pub enum ValueError {
         /// Extensions that are allowed.
         allowed: &'static str,
     },
+    /// A text that is no state of a switch.
+    #[error("expected on or off")]
+    Switch,
     /// A text that is no frame rate.
     #[error("expected 1 to 1000 frames per second, or off, as in 30")]
     FrameRate,
@@ -257,6 +260,18 @@ pub fn frame_rate(text: &str) -> Result<FrameRate, ValueError> {
         Ok(rate) if (1.0..=1000.0).contains(&rate) => Ok(FrameRate::Held(rate)),
         Err(_) if text == "off" => Ok(FrameRate::Any),
         _ => Err(ValueError::FrameRate),
+    }
+}
+
+/// State of a switch: `on` or `off`.
+///
+/// # Errors
+/// [`ValueError::Switch`].
+pub fn on_off(text: &str) -> Result<bool, ValueError> {
+    match text {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => Err(ValueError::Switch),
     }
 }
 

@@ -17,6 +17,8 @@ pub fn usual_display(tracker: &TrackerUrl) -> &'static str {
     if matches!(tracker, TrackerUrl::Opentrack { .. }) { DESK } else { WINDOW }
 }
 
+/// Step by which a headset's rider turns in the vehicle, unless the set-up says otherwise, degrees.
+const SNAP_TURN_DEG: f64 = 30.0;
 /// Window of the velocity of a head that opentrack follows, unless the display says otherwise, seconds.
 const OPENTRACK_WINDOW_S: f64 = 0.1;
 
@@ -86,6 +88,9 @@ fn with_usual(mut config: HeadConfig, display: Option<&Display>, given: impl Fn(
     if !given("home") {
         config.home = display.viewer.head_m.to_array();
     }
+    if !given("snap_turn_deg") && config.url == TrackerUrl::Openxr && display.viewer.turns_pictures {
+        config.snap_turn_deg = SNAP_TURN_DEG;
+    }
     if !given("recentre") {
         let is_placed = given("room_from_tracker");
         config.recentre = match display.viewer.turns_pictures {
@@ -106,6 +111,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
     use super::*;
+    use input::head::Stance;
 
     fn display_of(name: &str, table: &str) -> Display {
         let set_up = toml::from_str(&format!("[tracker]\n{table}")).unwrap();
@@ -145,6 +151,22 @@ mod tests {
         let left = wand(&display("url = \"openxr://\"\n[tracker.wand]\nsensor = 1")).unwrap();
         assert_eq!((left.sensor, left.trigger), (1, None));
         assert_eq!(config_of(&display("url = \"vrpn://lab/Head\""), None).unwrap().unwrap().wand, None);
+    }
+
+    #[test]
+    fn a_headset_turns_in_steps_where_its_pictures_turn_unless_the_set_up_says_otherwise() {
+        let of = |display: &Display, url: &str| {
+            let config = config_of(display, Some(&url.parse().unwrap())).unwrap().unwrap();
+            (config.snap_turn_deg, config.stance)
+        };
+        let window = Display::built_in("window").unwrap();
+        assert_eq!(of(&window, "openxr://"), (30.0, Stance::Seated));
+        assert_eq!(of(&window, "vrpn://lab/Head"), (0.0, Stance::Seated));
+        assert_eq!(of(&Display::built_in("cave4").unwrap(), "openxr://"), (0.0, Stance::Seated));
+        let own = display_of("window", "url = \"openxr://\"\nsnap_turn_deg = 45\nstance = \"standing\"");
+        assert_eq!(of(&own, "openxr://"), (45.0, Stance::Standing));
+        let told = config_of(&display_of("window", "url = \"openxr://\"\nsnap_turn_deg = 200"), None).unwrap_err();
+        assert!(told.to_string().contains("tracker.snap_turn_deg is 200"), "{told}");
     }
 
     #[test]

@@ -38,6 +38,8 @@ pub struct Headset {
     masks_changed: bool,
     /// Views of the head and of the stage as they were known last; a head that is out of sight keeps them.
     seen: [Vec<xr::View>; 2],
+    /// True once the head's place has been tracked, and not made up by the runtime alone.
+    was_placed: bool,
     session: xr::Session<xr::Vulkan>,
     runtime: XrRuntime,
     // Kept until the session is gone.
@@ -52,6 +54,8 @@ pub struct HeadsetTurn {
     pub eyes: Vec<HeadsetEye>,
     /// True if the frame will be seen.
     pub is_seen: bool,
+    /// True if the runtime sees the head. The place of one that tracks turns alone is always made up.
+    pub sees_head: bool,
     /// Time from one frame of the headset to the next.
     pub period: Duration,
     /// Moment at which the pose was asked for.
@@ -113,6 +117,7 @@ impl Headset {
             state,
             seen,
             masks_changed: false,
+            was_placed: false,
             session,
             runtime,
             device,
@@ -200,7 +205,11 @@ impl Headset {
         if let Some((_, views)) = located.iter().find(|(_, views)| views.len() != self.sizes.len()) {
             return Err(HeadsetError::Views(views.len()));
         }
+        let flags = located[1].0;
+        let is_placed = flags.contains(xr::ViewStateFlags::POSITION_TRACKED);
+        self.was_placed |= is_placed;
         let known = xr::ViewStateFlags::ORIENTATION_VALID | xr::ViewStateFlags::POSITION_VALID;
+        let sees_head = flags.contains(known) && (is_placed || !self.was_placed);
         if located.iter().all(|(flags, _)| flags.contains(known)) {
             self.seen = located.map(|(_, views)| views);
         }
@@ -214,7 +223,7 @@ impl Headset {
         let period = duration(frame.predicted_display_period.as_nanos()).unwrap_or_default();
         let lead = now.and_then(|now| duration(predicted.as_nanos() - now.as_nanos()));
         let masks_changed = std::mem::take(&mut self.masks_changed);
-        Ok(Some(HeadsetTurn { report, eyes, is_seen, period, asked, lead, masks_changed, predicted, views }))
+        Ok(Some(HeadsetTurn { report, eyes, is_seen, sees_head, period, asked, lead, masks_changed, predicted, views }))
     }
 
     /// Shows a turn: `draw` draws and submits the pictures of one view or two, leaves them as targets, and returns true

@@ -10,6 +10,7 @@ mod drawn_sheet;
 mod help;
 mod hud;
 mod menu;
+mod menu_comfort;
 mod menu_drawing;
 mod menu_pages;
 mod menu_ride;
@@ -26,6 +27,6 @@ pub use drawn_sheet::{DrawnSheet, FORMAT as SHEET_FORMAT, SheetPointer, key_even
 pub use help::{cap, sheet as help_sheet, show as show_help};
 pub use hud::{Readings, pace_line, show as show_readings, speed_line};
 pub use menu::{MenuPage, sheet as menu_sheet, show as menu_contents, window as menu_window};
-pub use menu_ride::MenuRide;
+pub use menu_ride::{MenuComfort, MenuRide};
 pub use notices::{accuracy, log_fault, notice, replay_fault, uncertainty};
 pub use painter::{Painter, layouts};

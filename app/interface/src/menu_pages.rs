@@ -1,6 +1,7 @@
 //! Pages of the menu.
 
 use crate::controls::Controls;
+use crate::menu_comfort::comfort;
 use crate::menu_drawing::drawing;
 use crate::menu_ride::MenuRide;
 use crate::menu_rows::row;
@@ -103,6 +104,7 @@ pub fn ride(ui: &mut Ui, presentation: &Presentation, state: &MenuRide, actions:
             actions.push(Action::TimeScale(scale));
         }
     });
+    comfort(ui, presentation, state, actions);
     ui.separator();
     ui.horizontal_wrapped(|ui| {
         for (label, action, purpose) in BUTTONS {
@@ -309,6 +311,7 @@ mod tests {
             include_str!("menu.rs"),
             include_str!("menu_world.rs"),
             include_str!("menu_drawing.rs"),
+            include_str!("menu_comfort.rs"),
         ] {
             let menu = source.split("#[cfg(test)]").next().expect("a text has a first part");
             let makers = [

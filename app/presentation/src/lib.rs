@@ -6,6 +6,8 @@
 mod latency;
 mod presentation;
 mod texts;
+mod vignette;
 
 pub use latency::Latency;
-pub use presentation::{Presentation, colouring, view};
+pub use presentation::{Presentation, colouring, view, vignette};
+pub use vignette::Vignette;

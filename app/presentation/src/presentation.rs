@@ -1,6 +1,7 @@
 //! State of what is shown, and its change by actions.
 
 use crate::latency::Latency;
+use crate::vignette::Vignette;
 use input::{Action, Setting, Switch};
 use render::display::{Development, development};
 use view::{Colouring, Dial, Effects, Places};
@@ -43,6 +44,10 @@ pub struct Presentation {
     pub clocks: bool,
     /// True if the planner is shown.
     pub planner: bool,
+    /// Darkening of the edges of a headset's pictures.
+    pub vignette: Vignette,
+    /// True if lines of the vehicle are shown about the rider, in a headset or a room.
+    pub cockpit: bool,
 }
 
 impl Default for Presentation {
@@ -65,6 +70,8 @@ impl Default for Presentation {
             diagram_of_vehicle: false,
             clocks: false,
             planner: false,
+            vignette: Vignette::default(),
+            cockpit: false,
         }
     }
 }
@@ -97,6 +104,7 @@ impl Presentation {
             Switch::DiagramOfVehicle => &mut self.diagram_of_vehicle,
             Switch::Clocks => &mut self.clocks,
             Switch::Planner => &mut self.planner,
+            Switch::Cockpit => &mut self.cockpit,
         };
         Some(on)
     }
@@ -143,11 +151,15 @@ impl Presentation {
     }
 
     /// True for an action that a presentation carries out, and that a replay repeats. What the rider has opened to read
-    /// or to choose is not opened again.
+    /// or to choose is not opened again, and whoever watches has a comfort of their own.
     pub fn repeats(action: &Action) -> bool {
         match action {
-            Action::Toggle(switch) | Action::Turn(switch, _) => !matches!(switch, Switch::Menu | Switch::Readings),
-            Action::Set(setting, _) | Action::Next(setting) => *setting != Setting::Language,
+            Action::Toggle(switch) | Action::Turn(switch, _) => {
+                !matches!(switch, Switch::Menu | Switch::Readings | Switch::Cockpit)
+            }
+            Action::Set(setting, _) | Action::Next(setting) => {
+                !matches!(setting, Setting::Language | Setting::Vignette)
+            }
             Action::NextView | Action::Expose(_) | Action::Orbit { .. } => true,
             _ => false,
         }
@@ -180,6 +192,10 @@ impl Presentation {
                 self.colouring = self.colouring.next();
                 Some(self.language.fill(Phrase::ColouringIs, &[&self.language.text(colouring(self.colouring))]))
             }
+            Setting::Vignette => {
+                self.vignette = development::next(self.vignette);
+                Some(self.language.fill(Phrase::VignetteIs, &[&self.language.text(vignette(self.vignette))]))
+            }
             Setting::Fov | Setting::Exposure | Setting::Renderer => None,
         }
     }
@@ -191,6 +207,15 @@ pub fn view(places: Places) -> Phrase {
         Places::Seen => Phrase::Seen,
         Places::Measured => Phrase::Measured,
         Places::Instant => Phrase::Instant,
+    }
+}
+
+/// Name of a vignette.
+pub fn vignette(vignette: Vignette) -> Phrase {
+    match vignette {
+        Vignette::Off => Phrase::VignetteOff,
+        Vignette::Weak => Phrase::VignetteWeak,
+        Vignette::Strong => Phrase::VignetteStrong,
     }
 }
 

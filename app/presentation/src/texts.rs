@@ -13,7 +13,7 @@ const FOV_DEG: std::ops::RangeInclusive<f64> = 1.0..=170.0;
 /// Name of the text that says which effects of light are switched on, whether or not the view shows them.
 const LIGHT: &str = "light";
 
-/// Settings by their names.
+/// Settings by their names. Comfort is no part of a recording: whoever watches it has a comfort of their own.
 const NAMES: [(&str, Setting); 10] = [
     ("effects", Setting::Effects),
     ("view", Setting::View),
@@ -51,6 +51,7 @@ impl Presentation {
             }
             Setting::Language => self.language = text.parse().ok()?,
             Setting::Colouring => self.colouring = Colouring::ALL.into_iter().find(|known| known.name() == text)?,
+            Setting::Vignette => self.vignette = choice(text)?,
         }
         Some(())
     }
@@ -68,6 +69,7 @@ impl Presentation {
             Setting::Renderer => self.dial.map_or_else(String::new, |dial| dial.to_string()),
             Setting::Language => self.language.to_string(),
             Setting::Colouring => self.colouring.name().to_owned(),
+            Setting::Vignette => development::name(&self.vignette),
         }
     }
 
@@ -107,6 +109,7 @@ mod tests {
 
     use super::*;
     use crate::latency::Latency;
+    use crate::vignette::Vignette;
     use input::Switch;
     use render::display::{Exposure, Tone};
     use words::Language;
@@ -179,6 +182,26 @@ mod tests {
     }
 
     #[test]
+    fn comfort_is_the_onlookers_own() {
+        let mut rider = Presentation::default();
+        let asked = [
+            Action::Set(Setting::Vignette, "strong".to_owned()),
+            Action::Next(Setting::Vignette),
+            Action::Next(Setting::Vignette),
+            Action::Toggle(Switch::Cockpit),
+        ];
+        for (action, vignette) in asked.iter().zip([Vignette::Strong, Vignette::Off, Vignette::Weak, Vignette::Weak]) {
+            rider.act(action);
+            assert_eq!(rider.vignette, vignette);
+            assert!(!Presentation::repeats(action), "{action:?}");
+        }
+        assert!(rider.cockpit);
+        assert_eq!(Presentation::default().with_json(&rider.to_json()), Presentation::default());
+        let told = rider.act(&Action::Set(Setting::Vignette, "black".to_owned()));
+        assert!(told.is_some_and(|told| told.contains("no such value")) && rider.vignette == Vignette::Weak);
+    }
+
+    #[test]
     fn a_switch_turned_twice_is_as_it_was() {
         for switch in [
             Switch::Geometry,
@@ -192,6 +215,7 @@ mod tests {
             Switch::DiagramOfVehicle,
             Switch::Clocks,
             Switch::Planner,
+            Switch::Cockpit,
         ] {
             let mut after = Presentation::default();
             let before = after.is_on(switch);

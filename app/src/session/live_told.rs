@@ -4,6 +4,7 @@ use super::live::{Live, Rider};
 use crate::output::say::tell;
 use hardware::heard::{self, DeviceReport};
 use hardware::{head_line, straightened, tracking_told};
+use input::head::TrackedHead;
 use input::{Desk, Nanos, SECOND, TrackingMode};
 use picture_files::files::unused;
 use ride::{LogError, RideLog};
@@ -27,6 +28,11 @@ impl Live {
     /// Use of the tracked head, if one is tracked.
     pub fn tracking(&self) -> Option<TrackingMode> {
         self.desk().tracking()
+    }
+
+    /// Head that is tracked, if one is.
+    pub fn head(&self) -> Option<&TrackedHead> {
+        self.desk().head()
     }
 
     /// Sentence on the use of the tracked head.

@@ -120,6 +120,8 @@ impl RecordedRide {
                     | Action::Toggle(_)
                     | Action::Set(..)
                     | Action::Next(_)
+                    | Action::Stance(_)
+                    | Action::SnapTurn(_)
             )
         };
         actions.into_iter().filter(|action| of_window(action) || Presentation::repeats(action)).collect()

@@ -66,7 +66,11 @@ impl RideRoom {
         // The head in a headset is tracked by its runtime.
         let own = (display_name.as_deref() == Some(HEADSET)).then_some(TrackerUrl::Openxr);
         let url = own.as_ref().or(options.devices.tracker.as_ref());
-        let head = head_config(display.as_ref(), &set_up, url)?;
+        let mut head = head_config(display.as_ref(), &set_up, url)?;
+        if let Some(head) = head.as_mut().filter(|head| head.url == TrackerUrl::Openxr) {
+            head.stance = options.comfort.stance.unwrap_or(head.stance);
+            head.snap_turn_deg = options.comfort.snap_turn.unwrap_or(head.snap_turn_deg);
+        }
         Ok(Self { display, display_name, head, set_up })
     }
 

@@ -44,6 +44,12 @@ impl Open {
                     let told = self.ride.live.tracking_told();
                     self.ride.live.tell(told);
                 }
+                // The desk has turned the head of a rider, and knows nothing of whoever watches.
+                Action::Stance(_) | Action::SnapTurn(_) => {
+                    if let Some(worn) = self.worn.as_mut().filter(|_| self.ride.live.is_recorded()) {
+                        worn.viewer.act(&action);
+                    }
+                }
                 Action::Photo => {
                     let development = self.presentation.development;
                     let taken = photo::take(&self.gpu, &mut self.ride.renderer, &mut self.canvas, &development);

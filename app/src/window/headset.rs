@@ -7,11 +7,11 @@ use crate::output::say::tell;
 use command::{FrameRate, HEADSET};
 use egui::load::SizedTexture;
 use egui::{Color32, LayerId, Pos2, Rect, Ui, Vec2};
-use headset::{Headset, HeadsetDevice, HeadsetError};
+use headset::{HeadFade, Headset, HeadsetDevice, HeadsetError};
 use input::decoder::{Actions, Decoder};
 use input::head::{Recentring, TrackedHead};
 use input::openxr::{OpenxrDecoder, XrReport, XrRuntime, XrUse};
-use input::{HeadConfig, HeadState, Nanos, TrackerUrl};
+use input::{Action, HeadConfig, HeadState, Nanos, TrackerUrl};
 use render::Gpu;
 use render::display::Development;
 use render::target::texture;
@@ -28,7 +28,10 @@ pub(super) struct Worn {
     /// Copy of the left eye's picture, for the window.
     mirror: Option<(wgpu::TextureView, egui::TextureId)>,
     format: wgpu::TextureFormat,
-    viewer: HeadsetViewer,
+    /// Head of whoever watches a recorded ride in it.
+    pub(super) viewer: HeadsetViewer,
+    /// Fade of its pictures while the head is not seen.
+    pub(super) fade: HeadFade,
 }
 
 /// Head of whoever wears the headset, where no ride asks for it.
@@ -39,11 +42,11 @@ pub(super) struct HeadsetViewer {
 }
 
 /// Reaches the headset, with the frame rate that was asked for. Returns the device that its runtime wants, and the
-/// display of its eyes.
+/// display of its eyes. `head`: how a rider's head is tracked in it.
 ///
 /// # Errors
 /// What is missing, with what to do about it.
-pub(super) fn wear(frame_rate: Option<FrameRate>) -> Result<(Gpu, Worn, Display), Error> {
+pub(super) fn wear(frame_rate: Option<FrameRate>, head: Option<&HeadConfig>) -> Result<(Gpu, Worn, Display), Error> {
     let runtime = XrRuntime::new(XrUse::Pictures).map_err(HeadsetError::from)?;
     let device = HeadsetDevice::open(&runtime)?;
     let session = Headset::new(runtime, &device)?;
@@ -58,16 +61,38 @@ pub(super) fn wear(frame_rate: Option<FrameRate>) -> Result<(Gpu, Worn, Display)
     let sizes = session.sizes();
     let display = Display::headset(HEADSET, &HeadsetEye::usual(sizes.len()), sizes);
     let format = session.format();
-    let viewer = HeadsetViewer::new(&display)?;
-    Ok((device.gpu, Worn { session: Some(session), last: None, mirror: None, format, viewer }, display))
+    let viewer = HeadsetViewer::new(&display, head)?;
+    let (last, mirror, fade) = (None, None, HeadFade::default());
+    Ok((device.gpu, Worn { session: Some(session), last, mirror, format, viewer, fade }, display))
 }
 
 impl HeadsetViewer {
-    /// Head that begins in the driver's seat.
-    fn new(display: &Display) -> Result<Self, Error> {
+    /// Head that begins in the driver's seat, with the comfort of the settings of a rider's head.
+    fn new(display: &Display, rider: Option<&HeadConfig>) -> Result<Self, Error> {
         let (home, recentre) = (display.viewer.head_m.to_array(), Recentring::Start);
-        let config = HeadConfig { home, recentre, ..HeadConfig::new(TrackerUrl::Openxr) };
-        Ok(Self { decoder: OpenxrDecoder::default(), head: TrackedHead::new(config)?, began: Instant::now() })
+        let usual = HeadConfig { home, recentre, ..HeadConfig::new(TrackerUrl::Openxr) };
+        let config = match rider {
+            Some(HeadConfig { stance, snap_turn_deg, wand, .. }) => {
+                HeadConfig { stance: *stance, snap_turn_deg: *snap_turn_deg, wand: wand.clone(), ..usual }
+            }
+            None => usual,
+        };
+        let decoder = OpenxrDecoder::of_head(&config);
+        Ok(Self { decoder, head: TrackedHead::new(config)?, began: Instant::now() })
+    }
+
+    /// Settings of the head at present.
+    pub(super) fn config(&self) -> &HeadConfig {
+        self.head.config()
+    }
+
+    /// Carries out an action that concerns the head.
+    pub(super) fn act(&mut self, action: &Action) {
+        match action {
+            Action::Stance(stance) => self.head.take_stance(*stance),
+            Action::SnapTurn(degrees) => self.head.snap_by(*degrees),
+            _ => {}
+        }
     }
 
     /// State of the head after a report.
@@ -78,6 +103,7 @@ impl HeadsetViewer {
             self.head.axes_moved();
         }
         self.decoder.take_poses().iter().for_each(|pose| self.head.pose(pose));
+        self.head.snap_turn(self.decoder.take_flicks());
         self.head.state(at)
     }
 }
@@ -144,6 +170,8 @@ mod tests {
 
     use super::*;
     use glam::{DQuat, DVec3};
+    use input::WandConfig;
+    use input::head::Stance;
     use input::openxr::XrPose;
 
     fn report(time_ns: i64, place: [f32; 3], turn: DQuat) -> Vec<u8> {
@@ -155,7 +183,12 @@ mod tests {
     #[test]
     fn a_viewer_begins_in_the_seat_and_looks_round_from_there() {
         let display = Display::headset(HEADSET, &HeadsetEye::usual(2), &[[64; 2]; 2]);
-        let mut viewer = HeadsetViewer::new(&display).unwrap();
+        let rider = HeadConfig {
+            snap_turn_deg: 90.0,
+            wand: Some(WandConfig { sensor: 2, ..WandConfig::default() }),
+            ..HeadConfig::new(TrackerUrl::Openxr)
+        };
+        let mut viewer = HeadsetViewer::new(&display, Some(&rider)).unwrap();
         let quarter = DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2);
         let first = viewer.follow(&report(0, [3.0, 1.2, -5.0], quarter));
         assert!((first.position_m - display.viewer.head_m).length() < 1e-6, "{first:?}");
@@ -168,13 +201,23 @@ mod tests {
         assert!((moved - DVec3::new(0.0, 0.0, -0.1)).length() < 1e-6, "{moved}");
         let ahead = DQuat::from_rotation_y(0.5) * DVec3::NEG_Z;
         assert!((next.orientation * DVec3::NEG_Z - ahead).length() < 1e-6, "{next:?}");
+        // The left stick's flick turns the viewer, too, and the viewer may stand.
+        let mut flicked = XrReport::from_bytes(&report(100_000_000, [2.9, 1.2, -5.0], turned)).unwrap();
+        flicked.hands[0].axes[0] = -1.0;
+        std::thread::sleep(std::time::Duration::from_millis(2));
+        let left = viewer.follow(&flicked.to_bytes());
+        assert!((left.position_m - next.position_m).length() < 1e-6, "{left:?}");
+        let ahead = DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2) * ahead;
+        assert!((left.orientation * DVec3::NEG_Z - ahead).length() < 1e-6, "{left:?}");
         // The runtime moves its stage by a step that a head could make.
         std::thread::sleep(std::time::Duration::from_millis(2));
-        let mut moved = XrReport::from_bytes(&report(100_000_000, [2.8, 1.2, -5.0], turned)).unwrap();
+        let mut moved = XrReport::from_bytes(&report(150_000_000, [2.8, 1.2, -5.0], turned)).unwrap();
         moved.stage_moves = 1;
         let seat = viewer.follow(&moved.to_bytes());
         assert!((seat.position_m - display.viewer.head_m).length() < 1e-6, "{seat:?}");
         assert!((seat.orientation * DVec3::NEG_Z - DVec3::NEG_Z).length() < 1e-6, "{seat:?}");
         assert_eq!(seat.velocity_m_s, DVec3::ZERO);
+        viewer.act(&Action::Stance(Stance::Standing));
+        assert!((viewer.head.state(0).position_m.y - 1.2).abs() < 1e-6);
     }
 }

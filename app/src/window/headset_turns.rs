@@ -9,6 +9,7 @@ use headset::{HeadsetError, HeadsetTurn};
 use input::{Nanos, SECOND, Sample, SampleSource};
 use render::display::Development;
 use ride::TICKS_PER_SECOND;
+use walls::Veil;
 use words::{Language, Phrase};
 
 /// Time of a tick of the ride, not less.
@@ -57,10 +58,14 @@ impl Open {
     /// # Errors
     /// A lost graphics device.
     pub(super) fn show_in_headset(&mut self, turn: &HeadsetTurn, development: &Development) -> Result<(), Error> {
-        let Some(session) = self.worn.as_mut().and_then(|worn| worn.session.as_mut()) else { return Ok(()) };
-        let Some(walls) = self.canvas.walls_mut() else { return Ok(()) };
+        let Some(worn) = &mut self.worn else { return Ok(()) };
+        let Some((session, walls)) = worn.session.as_mut().zip(self.canvas.walls_mut()) else { return Ok(()) };
         let gpu = &self.gpu;
-        match session.show(turn, |pictures| pictures.show(gpu, walls, development)) {
+        // The window's copy does not fade.
+        walls.fade = Veil::everywhere(worn.fade.after(turn.report.time_ns, turn.sees_head));
+        let shown = session.show(turn, |pictures| pictures.show(gpu, walls, development));
+        walls.fade = Veil::NONE;
+        match shown {
             Ok(()) => {
                 self.ride.times.note(Phrase::StagePose, turn.asked.elapsed());
                 if let Some(lead) = turn.lead {

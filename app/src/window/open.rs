@@ -16,7 +16,7 @@ use crate::session::interrupt::interruption;
 use crate::session::making::Making;
 use crate::session::start::RideRoom;
 use crate::session::waiting::WaitingRide;
-use cabin::{Guide, RoomInterface};
+use cabin::{Guide, RoomInterface, UnfeltMotion};
 use command::{RideOptions, map_scale_of_windows};
 use glam::DVec2;
 use hardware::{DESK, WINDOW};
@@ -57,6 +57,8 @@ pub struct Open {
     pub(super) guide: Guide,
     /// Headset in which the ride is shown, if it is.
     pub(super) worn: Option<Worn>,
+    /// Motion that whoever wears it does not feel.
+    pub(super) unfelt: UnfeltMotion,
     /// Interface in a room of several screens; otherwise it is drawn over the window's picture.
     pub(super) room_interface: Option<RoomInterface>,
     /// Window and pixel of the mouse, and true while its left button is held.
@@ -121,7 +123,7 @@ impl Open {
         let (device, worn) = match room.is_headset() {
             false => (None, None),
             true => {
-                let (gpu, worn, eyes) = wear(options.frame_rate)?;
+                let (gpu, worn, eyes) = wear(options.frame_rate, room.head.as_ref())?;
                 display = Some(eyes);
                 (Some(gpu), Some(worn))
             }
@@ -239,6 +241,7 @@ impl Open {
             fresh,
             guide,
             worn,
+            unfelt: UnfeltMotion::default(),
             room_interface,
             pointed: None,
             mouse_pressed: false,

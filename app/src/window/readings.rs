@@ -3,7 +3,7 @@
 use super::open::Open;
 use crate::canvas::Canvas;
 use crate::frame::RideInProgress;
-use interface::{MenuRide, Readings};
+use interface::{MenuComfort, MenuRide, Readings};
 use room::EyeBehind;
 use tours::TourPlan;
 use words::{Language, Phrase};
@@ -76,6 +76,8 @@ impl Open {
             recording: ride.live.is_recording(),
             is_recorded: ride.live.is_recorded(),
             tracking: ride.live.tracking(),
+            comfort: self.comfort(),
+            has_lines: self.room_interface.is_some(),
             scene: self.options.world.scene().name(),
             tours: self.tours.iter().map(|(name, plan)| (title(plan), *name)).collect(),
             places: self.guide.places(language),
@@ -86,5 +88,12 @@ impl Open {
             overlaps: ride.overlaps,
             is_flat: matches!(self.canvas, Canvas::Picture(_)),
         }
+    }
+
+    /// Comfort of whoever wears the headset: the rider, or who watches a recorded ride.
+    fn comfort(&self) -> Option<MenuComfort> {
+        let (worn, live) = (self.worn.as_ref()?, &self.ride.live);
+        let head = if live.is_recorded() { worn.viewer.config() } else { live.head()?.config() };
+        Some(MenuComfort { snap_turn_deg: head.snap_turn_deg, stance: head.stance })
     }
 }

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::session::tour_ride::TourMark;
 use cabin::{PointerRay, Shown};
 use input::{Action, SECOND, Sample};
-use presentation::Latency;
+use presentation::{Latency, Vignette};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use words::Phrase;
@@ -88,6 +88,7 @@ impl Open {
             keys: &keys,
             now_s: self.ride.live.now() as f64 / SECOND as f64,
         };
+        self.darken_edges(shown.vignette);
         let mut wanted = self.draw_room_interface(&room);
         let is_flat = self.room_interface.is_none();
         if is_flat {
@@ -166,6 +167,15 @@ impl Open {
         self.in_step.presented(skew);
         self.ride.times.stage(Phrase::StageShow);
         Ok(true)
+    }
+
+    /// Darkens the edges of a headset's pictures with the motion of the frame that is shown.
+    fn darken_edges(&mut self, vignette: Vignette) {
+        let (Some(frame), true) = (&self.ride.frame, self.worn.is_some()) else { return };
+        self.unfelt.follow(frame);
+        if let Some(walls) = self.canvas.walls_mut() {
+            walls.vignette = self.unfelt.veil(vignette);
+        }
     }
 
     /// Asks every window that holds no texture for one. Windows that others wait for have until `until`.

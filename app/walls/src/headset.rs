@@ -43,7 +43,7 @@ impl Walls {
         passes.show_views(gpu, encoder, views, adaptation, development, both);
         for (channel, layer) in (first..).zip(layers) {
             let viewport = self.display.channels[channel].viewport;
-            self.show_sheets(gpu, encoder, channel, layer, viewport);
+            self.show_over(gpu, encoder, channel, layer, viewport);
         }
     }
 

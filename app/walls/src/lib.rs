@@ -11,6 +11,7 @@
 //!    developed, multiplied by its projector's gains, and put into its window.
 //!
 //! Sheets (`room_sheet`) float in the room over these pictures: menus and readings, which no speed bends or shifts.
+//! Below them a veil (`veil`) may darken the edges of a headset's pictures, and another darken all.
 //!
 //! A window that is no room has one flat picture (`flat_picture`), with as many pixels as its frame rate allows
 //! (`governor`). A room draws as many of its channels' pixels (`governed`), and enlarges their light
@@ -41,6 +42,7 @@ mod sheet_passes;
 mod show;
 mod test_grid;
 mod texture_waiter;
+mod veil;
 mod walls;
 
 pub use flat_picture::FlatPicture;
@@ -51,4 +53,5 @@ pub use picture_shares::{Drawing, PictureShares};
 pub use quality::Quality;
 pub use room_sheet::{RoomSheet, SheetHit, meet};
 pub use texture_waiter::{TextureWaiter, WaiterGone};
+pub use veil::Veil;
 pub use walls::{DrawnChannels, SubmittedRoom, Walls};

@@ -4,7 +4,9 @@ use crate::head::Occupant;
 use crate::preview::{Preview, RoomOnlooker};
 use crate::sheet_passes::{SheetChannel, SheetScreen};
 use crate::test_grid::DEVELOPMENT;
+use crate::veil::{Veil, VeiledEye};
 use crate::walls::Walls;
+use glam::{DMat3, DVec3};
 use image::RgbaImage;
 use render::display::{DevelopedPart, Development, LINEAR_FORMAT, clear};
 use render::picture::{SCREEN_FORMAT, Sheet};
@@ -142,7 +144,7 @@ impl Walls {
         match &self.grids {
             None => {
                 self.passes.show_part(gpu, encoder, picture.light(), &self.adaptation, development, screen, &part);
-                self.show_sheets(gpu, encoder, channel, screen, viewport);
+                self.show_over(gpu, encoder, channel, screen, viewport);
             }
             Some(grids) => {
                 let part = DevelopedPart { exposure: 1.0, ..part };
@@ -152,6 +154,20 @@ impl Walls {
         }
     }
 
+    /// Shows what lies over the light of a channel: a vignette, the sheets of the room, a fade.
+    pub(crate) fn show_over(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        channel: usize,
+        screen: &wgpu::TextureView,
+        viewport: [u32; 4],
+    ) {
+        self.show_veil(gpu, encoder, channel, (screen, viewport), self.vignette);
+        self.show_sheets(gpu, encoder, channel, screen, viewport);
+        self.show_veil(gpu, encoder, channel, (screen, viewport), self.fade);
+    }
+
     /// Factor of a channel's light besides the common exposure, which is made for the scale with which the first channel
     /// stores its light.
     pub(crate) fn exposure(&self, channel: usize) -> f32 {
@@ -159,8 +175,34 @@ impl Walls {
         (first / self.pictures[channel].stored.scale) as f32
     }
 
+    /// Shows a veil over a channel's picture on a flat screen, for the eye whose light was drawn last.
+    fn show_veil(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        channel: usize,
+        (screen, viewport): (&wgpu::TextureView, [u32; 4]),
+        veil: Veil,
+    ) {
+        let Some((occupant, _)) = self.shown.as_ref().filter(|_| !veil.is_none()) else { return };
+        let (viewer, of_display) = (&self.display.viewer, &self.display.channels[channel]);
+        let Some(surface) = of_display.flat(&self.display) else { return };
+        let turned = if viewer.turns_pictures { DMat3::IDENTITY } else { occupant.head.room_from_head };
+        let eye_m = occupant.eye(viewer, of_display.eye).place_m;
+        let eye = VeiledEye { eye_m, ahead: turned * DVec3::NEG_Z, screen: surface, viewport };
+        let target = (screen, self.written(screen));
+        self.veil_passes.draw(gpu, encoder, target, &veil, &eye);
+    }
+
+    /// Format in which a target is written: a headset's pictures are sRGB as it is stored, whatever reads them.
+    fn written(&self, screen: &wgpu::TextureView) -> wgpu::TextureFormat {
+        let format = screen.texture().format();
+        let is_screen = format.remove_srgb_suffix() == self.screen.remove_srgb_suffix();
+        if is_screen { self.screen } else { format }
+    }
+
     /// Shows the sheets of the room over a channel's picture, as the eye sees them whose light was drawn last.
-    pub(crate) fn show_sheets(
+    fn show_sheets(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
@@ -183,10 +225,7 @@ impl Walls {
         };
         let gamma = of_display.projector(&self.display).and_then(|projector| projector.gamma);
         let gains = picture.gains.as_ref();
-        // A headset's pictures are written as sRGB is stored, whatever reads them.
-        let format = screen.texture().format();
-        let is_screen = format.remove_srgb_suffix() == self.screen.remove_srgb_suffix();
-        let format = if is_screen { self.screen } else { format };
+        let format = self.written(screen);
         let channel = SheetChannel { screen: surface, eye_m, viewport, gains, gamma, format };
         self.sheet_passes.draw(gpu, encoder, screen, &sheets, &channel);
     }

@@ -11,6 +11,7 @@ use crate::room_rest::RoomRest;
 use crate::room_sheet::RoomSheet;
 use crate::sheet_passes::SheetPasses;
 use crate::test_grid::TestGrids;
+use crate::veil::{Veil, VeilPasses};
 use render::certainty::Certainty;
 use render::display::{Adaptation, Developer, Development, LINEAR_FORMAT, Pass, Seen, resample};
 use render::{Gpu, GpuError, Pending, SceneDepth, SceneRenderer};
@@ -86,6 +87,11 @@ pub struct Walls {
     /// Sheets that float in the room, the undermost first.
     pub sheets: Vec<RoomSheet>,
     pub(crate) sheet_passes: SheetPasses,
+    /// Veil over the light of flat screens, under the sheets.
+    pub vignette: Veil,
+    /// Veil over all that flat screens show, the sheets as well.
+    pub fade: Veil,
+    pub(crate) veil_passes: VeilPasses,
     /// Test grids that are shown instead of light.
     pub(crate) grids: Option<TestGrids>,
 }
@@ -113,6 +119,9 @@ impl Walls {
             scene_depth: None,
             sheets: Vec::new(),
             sheet_passes: SheetPasses::default(),
+            vignette: Veil::NONE,
+            fade: Veil::NONE,
+            veil_passes: VeilPasses::default(),
             grids: None,
             screen,
             passes,

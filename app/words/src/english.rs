@@ -71,6 +71,29 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::StepPurpose => "Moves the world on by one small step while it is held.",
         Phrase::Restart => "To the start",
         Phrase::RestartPurpose => "Takes you back to where the ride began.",
+        Phrase::VignetteChoice => "Dark edges",
+        Phrase::VignetteOff => "off",
+        Phrase::VignetteWeak => "weak",
+        Phrase::VignetteStrong => "strong",
+        Phrase::VignettePurpose => {
+            "Darkens the edges of what you see while the vehicle speeds up, slows down or turns, which you see and do not feel."
+        }
+        Phrase::VignetteIs => "dark edges: {0}",
+        Phrase::Cockpit => "Vehicle lines",
+        Phrase::CockpitShown => "shown",
+        Phrase::CockpitPurpose => "Lines about you that rest in the vehicle: something to hold on to with the eyes.",
+        Phrase::SnapTurn => "Turns in steps",
+        Phrase::SnapTurnOff => "none",
+        Phrase::SnapTurnPurpose => {
+            "A flick of your other hand's stick turns you in the vehicle by so much, on the spot."
+        }
+        Phrase::StanceChoice => "You ride",
+        Phrase::Seated => "seated",
+        Phrase::SeatedPurpose => "Where you are now is the driver's seat, however high you are.",
+        Phrase::Standing => "standing",
+        Phrase::StandingPurpose => {
+            "You stand on the vehicle's floor, as tall as you are. Where you are now is its place."
+        }
         Phrase::Straighten => "Straighten",
         Phrase::StraightenPurpose => "Makes where your tracked head is and looks now the middle.",
         Phrase::Photo => "Photo",

@@ -71,6 +71,29 @@ pub fn text(phrase: Phrase) -> &'static str {
         Phrase::StepPurpose => "Bewegt die angehaltene Welt um einen kleinen Schritt weiter.",
         Phrase::Restart => "Zum Anfang",
         Phrase::RestartPurpose => "Bringt dich dorthin zurück, wo die Fahrt begann.",
+        Phrase::VignetteChoice => "Dunkler Rand",
+        Phrase::VignetteOff => "aus",
+        Phrase::VignetteWeak => "schwach",
+        Phrase::VignetteStrong => "stark",
+        Phrase::VignettePurpose => {
+            "Verdunkelt den Rand deines Blicks, solange das Fahrzeug schneller oder langsamer wird oder sich dreht: das siehst du, spürst es aber nicht."
+        }
+        Phrase::VignetteIs => "dunkler Rand: {0}",
+        Phrase::Cockpit => "Fahrzeuglinien",
+        Phrase::CockpitShown => "gezeigt",
+        Phrase::CockpitPurpose => "Linien um dich, die im Fahrzeug ruhen: daran halten sich die Augen.",
+        Phrase::SnapTurn => "Drehschritte",
+        Phrase::SnapTurnOff => "keine",
+        Phrase::SnapTurnPurpose => {
+            "Kippst du den Stick der anderen Hand zur Seite, drehst du dich im Fahrzeug um so viel, auf der Stelle."
+        }
+        Phrase::StanceChoice => "Du fährst",
+        Phrase::Seated => "im Sitzen",
+        Phrase::SeatedPurpose => "Wo du jetzt bist, ist der Fahrersitz, wie hoch du auch bist.",
+        Phrase::Standing => "im Stehen",
+        Phrase::StandingPurpose => {
+            "Du stehst auf dem Boden des Fahrzeugs, so groß, wie du bist. Wo du jetzt bist, ist dein Platz."
+        }
         Phrase::Straighten => "Gerade",
         Phrase::StraightenPurpose => "Macht Ort und Richtung deines verfolgten Kopfes zur Mitte.",
         Phrase::Photo => "Foto",

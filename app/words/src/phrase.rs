@@ -128,6 +128,40 @@ phrases! {
     Restart,
     /// Use of the return to the start.
     RestartPurpose,
+    /// Choice of the vignette.
+    VignetteChoice,
+    /// No vignette.
+    VignetteOff,
+    /// Weak vignette.
+    VignetteWeak,
+    /// Strong vignette.
+    VignetteStrong,
+    /// Use of the vignette.
+    VignettePurpose,
+    /// Name of the chosen vignette, in a sentence.
+    VignetteIs,
+    /// Lines of the vehicle about the rider.
+    Cockpit,
+    /// Lines of the vehicle that are shown.
+    CockpitShown,
+    /// Use of the lines of the vehicle.
+    CockpitPurpose,
+    /// Choice of the step by which a rider turns.
+    SnapTurn,
+    /// No turns in steps.
+    SnapTurnOff,
+    /// Use of turns in steps.
+    SnapTurnPurpose,
+    /// Choice of the rider's stance.
+    StanceChoice,
+    /// Seated rider.
+    Seated,
+    /// Use of a seat.
+    SeatedPurpose,
+    /// Standing rider.
+    Standing,
+    /// Use of standing.
+    StandingPurpose,
     /// Straight pose of the head.
     Straighten,
     /// Use of the straight pose.

@@ -18,6 +18,8 @@ use serde::{Deserialize, Serialize};
 
 use super::flip::FlipAxis;
 use super::placement::{AxesPlacement, HEAD_FROM_SENSOR, ROOM_FROM_TRACKER, within};
+use super::snap_step::is_step;
+use super::stance::Stance;
 use super::tracking_mode::TrackingMode;
 use super::unit::LengthUnit;
 use super::url::TrackerUrl;
@@ -66,6 +68,14 @@ pub struct HeadConfig {
     /// Poses that become the straight one: at `home`, facing −z.
     #[serde(default, skip_serializing_if = "Recentring::is_never")]
     pub recentre: Recentring,
+    /// Stance of the rider, which says what of a straight pose is the seat's; seated in recordings made before one
+    /// could stand.
+    #[serde(default, skip_serializing_if = "Stance::is_seated")]
+    pub stance: Stance,
+    /// Step of the turn that a flick of the other hand's stick makes, degrees, with OpenXR; 0 for none, as in
+    /// recordings made before such turns.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub snap_turn_deg: f64,
     /// Edition of the rules by which the poses of the head count: since edition 2 its turn moves the eyes, and real
     /// time is the head's own; since edition 3 poses that can only be in another unit are rejected. Recordings without
     /// it are of edition 1.
@@ -78,6 +88,10 @@ pub struct HeadConfig {
 
 fn is_false(flag: &bool) -> bool {
     !flag
+}
+
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
 }
 
 /// Present edition of the rules by which the poses of the head count.
@@ -240,6 +254,8 @@ impl HeadConfig {
             fade_s: fade_s(),
             home: home(),
             recentre: Recentring::default(),
+            stance: Stance::default(),
+            snap_turn_deg: 0.0,
             edition: HEAD_EDITION,
             wand: None,
         }
@@ -327,6 +343,10 @@ impl HeadConfig {
                 let expected = "nothing with url = \"mouse\", which moves the head itself from `home`";
                 return Err(ConfigError { key: keys.position, value, expected });
             }
+        }
+        if !is_step(self.snap_turn_deg) {
+            let expected = "an angle from 0, for no turns in steps, to 180 degrees";
+            return Err(ConfigError { key: "tracker.snap_turn_deg", value: self.snap_turn_deg.to_string(), expected });
         }
         self.velocity.check()?;
         positive("tracker.fade_s", self.fade_s)?;

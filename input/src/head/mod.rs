@@ -8,6 +8,9 @@
 //! ([`FlipAxis`], [`LengthUnit`]). At a desk, where nobody measures, the rider declares a pose to be the straight one
 //! instead ([`Recentring`]): room_from_head is then home · straight⁻¹ times the above.
 //!
+//! A rider may also turn in steps about the vertical through the head, which turns these axes and moves nothing in
+//! them: place stays, and orientation and velocities turn.
+//!
 //! The velocity is made from differences of that origin's places,
 //! so it is the velocity of the eyes, not of the sensor: when the head turns, the two differ.
 //!
@@ -26,9 +29,13 @@ pub(crate) mod mouse_event;
 pub(crate) mod placement;
 pub(crate) mod rigid;
 mod seen;
+pub(crate) mod snap_step;
+pub(crate) mod stance;
 pub(crate) mod state;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_of_comfort;
 #[cfg(test)]
 mod tests_of_desks;
 pub(crate) mod tracked_head;
@@ -46,6 +53,7 @@ pub use mouse_event::{MouseButton, MouseEvent};
 pub use placement::AxesPlacement;
 pub use rigid::Rigid;
 pub use seen::PoseError;
+pub use stance::{Stance, StanceError};
 pub use state::{HeadState, Tracking};
 pub use tracked_head::TrackedHead;
 pub use tracked_pose::TrackedPose;

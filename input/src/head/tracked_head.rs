@@ -7,6 +7,8 @@ use super::flip::mirrored;
 use super::placement::{FARTHEST_M, UNIT_LENGTHS};
 use super::rigid::Rigid;
 use super::seen::{PoseError, PoseInterval, SeenPose};
+use super::snap_step::is_step;
+use super::stance::Stance;
 use super::state::{HeadState, Tracking};
 use super::tracked_pose::TrackedPose;
 use super::unit::LengthUnit;
@@ -129,12 +131,58 @@ impl TrackedHead {
         }
     }
 
+    /// Takes another stance; the last pose is the straight one of that stance. Does nothing where no pose may be
+    /// declared so.
+    pub fn take_stance(&mut self, stance: Stance) {
+        if self.recentres() {
+            self.config.stance = stance;
+            self.recentre();
+        }
+    }
+
+    /// Makes a step of the turn this large from now on, degrees; 0 for none. A size that no step has is passed over.
+    pub fn snap_by(&mut self, degrees: f64) {
+        if is_step(degrees) {
+            self.config.snap_turn_deg = degrees;
+        }
+    }
+
+    /// Turns the rider in the vehicle by steps to the left, or to the right where `steps` is negative, about the
+    /// vertical through the head. The place stays; orientation and velocities turn, since the tracker's axes do. Does
+    /// nothing before the first pose, in a room that its tracker is calibrated to, and where a step is none.
+    pub fn snap_turn(&mut self, steps: i32) {
+        let angle_rad = (f64::from(steps) * self.config.snap_turn_deg).to_radians();
+        let Some(mut seen) = self.last.filter(|_| self.recentres() && angle_rad != 0.0) else { return };
+        let (place, turn) = (seen.room_from_head.position, DQuat::from_rotation_y(angle_rad));
+        let turned = Rigid { position: place - turn * place, orientation: turn };
+        self.room_from_straight = Some(turned * self.room_from_straight());
+        seen.room_from_head = Rigid { position: place, ..turned * seen.room_from_head };
+        self.last = Some(seen);
+        if let Some(leapt) = &mut self.leapt {
+            leapt.room_from_head = turned * leapt.room_from_head;
+        }
+        // No place of the track has moved: the axes have turned.
+        self.velocity.turn(place, turn);
+        self.turn.turn(DVec3::ZERO, turn);
+        self.turned_rad = turn * self.turned_rad;
+    }
+
     fn straighten(&mut self, mut seen: SeenPose) {
         let home = Rigid { position: DVec3::from_array(self.config.home), orientation: DQuat::IDENTITY };
-        let straight = home * seen.room_from_head.inverse();
-        let before = self.room_from_straight.unwrap_or(Rigid::IDENTITY);
-        self.room_from_straight = Some(straight * before);
-        seen.room_from_head = home;
+        let before = self.room_from_straight();
+        match self.config.stance {
+            Stance::Seated => {
+                let straight = home * seen.room_from_head.inverse();
+                self.room_from_straight = Some(straight * before);
+                seen.room_from_head = home;
+            }
+            Stance::Standing => {
+                let tracked = before.inverse() * seen.room_from_head;
+                let straight = upright(&tracked, home.position);
+                self.room_from_straight = Some(straight);
+                seen.room_from_head = straight * tracked;
+            }
+        }
         // The step is no motion.
         self.restart(&seen, 0.0);
         (self.last, self.leapt) = (Some(seen), None);
@@ -287,6 +335,24 @@ impl TrackedHead {
         let velocity_m_s = self.velocity.value() * share;
         HeadState { position_m: position, orientation, velocity_m_s, turn_rad_s: turn, tracked }
     }
+}
+
+/// Transform that takes a pose to the vertical through `home`, with its heading ahead: a turn about the vertical and a
+/// shift in the plane, so that heights stay.
+fn upright(pose: &Rigid, home: DVec3) -> Rigid {
+    let orientation = DQuat::from_rotation_y(-heading_rad(pose.orientation));
+    let shift = home - orientation * pose.position;
+    Rigid { position: DVec3::new(shift.x, 0.0, shift.z), orientation }
+}
+
+/// Heading of a turn: the angle to the left about y from −z to where it looks, radians. Who looks straight up or down
+/// has that of the top of the head, which then lies backward or ahead.
+fn heading_rad(turn: DQuat) -> f64 {
+    /// Share of the view that points up or down from which on it says nothing of the heading.
+    const STEEP: f64 = 0.99;
+    let ahead = turn * DVec3::NEG_Z;
+    let along = if ahead.y.abs() < STEEP { ahead } else { turn * DVec3::Y * -ahead.y.signum() };
+    libm::atan2(-along.x, -along.z)
 }
 
 /// Unit of the lengths that such a tracker sends, which its decoder has turned into metres.

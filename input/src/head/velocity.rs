@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::config::VelocityFilter;
 
@@ -46,6 +46,13 @@ impl TrackVelocity {
     pub fn restart(&mut self, position: DVec3, value: DVec3) {
         *self = Self { value, ..Self::new(self.filter) };
         self.track.push_back((0.0, position));
+    }
+
+    /// Turns the track about a point, with its velocity: the axes have turned, and nothing has moved.
+    pub fn turn(&mut self, about: DVec3, turn: DQuat) {
+        self.track.iter_mut().for_each(|(_, place)| *place = about + turn * (*place - about));
+        self.acceleration = turn * self.acceleration;
+        self.value = turn * self.value;
     }
 
     /// Takes the next place, `interval_s` after the last.
@@ -129,7 +136,6 @@ mod tests {
     //! One Euro filter must agree with that of `filters`.
     use super::*;
     use crate::filters::OneEuro;
-    use glam::DQuat;
 
     /// Rounding of sums of a few hundred terms, m/s.
     const ROUNDING: f64 = 1e-9;

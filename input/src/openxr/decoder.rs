@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::report::{XrPose, XrReport};
+use super::report::{RIGHT_HAND, XrPose, XrReport};
 use crate::clock::Nanos;
 use crate::decoder::{Actions, Decoder};
 use crate::faults::Faults;
@@ -11,6 +11,7 @@ use crate::head::heard::{HeardKind, HeardSensor, HeardSensors};
 use crate::head::tracked_pose::TrackedPose;
 use crate::wand::held_buttons::HeldButtons;
 use crate::wand::signal::WandSignal;
+use crate::wand::stick_flick::StickFlick;
 
 /// Decoder of [`SampleSource::Openxr`](crate::SampleSource::Openxr): a report a sample.
 #[derive(Debug, Default)]
@@ -23,6 +24,9 @@ pub struct OpenxrDecoder {
     moved: bool,
     poses: Vec<TrackedPose>,
     wand_signals: Vec<WandSignal>,
+    flick: StickFlick,
+    /// Flicks of the other hand's stick: those to the left less those to the right.
+    flicks: i32,
     heard: HeardSensors,
     faults: Faults,
 }
@@ -46,6 +50,12 @@ impl OpenxrDecoder {
     /// Signals of the wand in the report fed last.
     pub fn take_wand_signals(&mut self) -> Vec<WandSignal> {
         std::mem::take(&mut self.wand_signals)
+    }
+
+    /// Flicks of the stick of the hand that is not the wand, in the report fed last: those to the left less those to
+    /// the right.
+    pub fn take_flicks(&mut self) -> i32 {
+        std::mem::take(&mut self.flicks)
     }
 
     /// Head and hands that have been heard of since the runtime was reached.
@@ -73,6 +83,12 @@ impl OpenxrDecoder {
             }
             self.poses.extend(pose);
         }
+        let other = match self.wand {
+            Some(RIGHT_HAND) => left,
+            Some(_) => right,
+            None => return,
+        };
+        self.flicks += self.flick.take(other.axes[0].into(), other.axes[1].into());
     }
 }
 
@@ -95,6 +111,7 @@ impl Decoder for OpenxrDecoder {
         // The next session counts anew.
         self.stage_moves = None;
         self.heard.forget();
+        self.flick = StickFlick::default();
     }
 
     fn bytes(&mut self, at: Nanos, bytes: &[u8], _actions: &mut Actions) {
@@ -112,7 +129,8 @@ impl Decoder for OpenxrDecoder {
 #[cfg(test)]
 mod tests {
     //! Laws: the head is sensor 0, the hands are 1 and 2; a pose that the runtime does not know is no pose; the wand is
-    //! one hand, with its buttons and axes; a stage that moves is told; what is no report is counted.
+    //! one hand, with its buttons and axes, and the other hand's stick is flicked; a stage that moves is told; what is
+    //! no report is counted.
     use super::*;
     use crate::openxr::report::tests::report;
     use crate::wand::config::WandConfig;
@@ -151,6 +169,26 @@ mod tests {
         decoder.reset(8);
         decoder.bytes(9, &report().to_bytes(), &mut Actions::default());
         assert!(!decoder.take_moved());
+    }
+
+    #[test]
+    fn the_stick_of_the_hand_that_is_no_wand_is_flicked() {
+        for (wand, other) in [(2, 0), (1, 1)] {
+            let mut decoder = decoder(wand);
+            for (hand, right, flicks) in [(other, 0.0, 0), (1 - other, -1.0, 0), (other, -1.0, 1), (other, -1.0, 0)] {
+                let mut report = report();
+                report.hands.iter_mut().for_each(|hand| hand.axes = [0.0; 4]);
+                report.hands[hand].axes[0] = right;
+                decoder.bytes(7, &report.to_bytes(), &mut Actions::default());
+                assert_eq!(decoder.take_flicks(), flicks, "wand {wand}, hand {hand}");
+            }
+            // Whoever holds the stick aside while the runtime comes has not flicked it.
+            decoder.reset(8);
+            let mut report = report();
+            report.hands[other].axes = [1.0, 0.0, 0.0, 0.0];
+            decoder.bytes(9, &report.to_bytes(), &mut Actions::default());
+            assert_eq!(decoder.take_flicks(), 0);
+        }
     }
 
     #[test]

@@ -7,6 +7,7 @@ pub(crate) mod config;
 pub(crate) mod held_buttons;
 pub(crate) mod signal;
 pub(crate) mod state;
+pub(crate) mod stick_flick;
 pub(crate) mod tracked_wand;
 pub(crate) mod work;
 

@@ -77,6 +77,10 @@ fn structs_have_the_same_layout_on_both_sides() {
         parse(&shaders::SHEET),
         SheetUniforms { eye, corner, right, up, screen_corner, screen_right, screen_up, viewport }
     );
+    assert_mirrors!(
+        parse(&shaders::VEIL),
+        VeilUniforms { eye, ahead, screen_corner, screen_right, screen_up, viewport, shade }
+    );
     assert_mirrors!(parse(&shaders::INTERFACE), InterfaceUniforms { size });
     assert_mirrors!(meter, AdaptationState { exposure, white, log2_exposure, gain, bright });
 }

@@ -4,10 +4,12 @@
 //! A wrong program points beside the controls, presses twice, or makes a ride whose replay is another.
 
 use super::*;
+use input::head::Stance;
 use input::recording::Recording;
 use input::{
     DeskConfig, HeadConfig, SECOND, Sample, SampleSource, Setting, Switch, TrackingMode, VehicleKind, WandConfig,
 };
+use interface::MenuComfort;
 use ride::{LightSpeed, Replay, Replayed, RideLog, RideStart, Setup, Simulation, VehicleSettings};
 use scene::OpenPlane;
 use std::collections::BTreeSet;
@@ -86,6 +88,8 @@ impl Visit {
             drawn_by: RendererName::Polygon,
             overlaps: true,
             is_flat: true,
+            has_lines: true,
+            comfort: Some(MenuComfort { snap_turn_deg: 30.0, stance: Stance::Seated }),
             ..MenuRide::default()
         };
         let ray = frame.controls.wand.as_deref().and_then(|wand| of_wand(wand, &WandButtons::default()));
@@ -203,6 +207,10 @@ fn a_wand_chooses_every_control_and_the_ride_replays_to_the_bit() {
         Action::Toggle(Switch::DiagramOfVehicle),
         Action::Toggle(Switch::Clocks),
         Action::Toggle(Switch::Planner),
+        Action::Toggle(Switch::Cockpit),
+        Action::Set(Setting::Vignette, "strong".to_owned()),
+        Action::SnapTurn(45.0),
+        Action::Stance(Stance::Standing),
         Action::Toggle(Switch::Readings),
         Action::ToggleHelp,
         Action::Set(Setting::Language, "de".to_owned()),

@@ -9,8 +9,13 @@
 use std::sync::Arc;
 
 use glam::DVec3;
+use input::head::{Recentring, Stance};
+use input::openxr::{XrHand, XrPose, XrReport};
 use input::recording::{FrameRecord, Recorder, Recording, RecordingEntry, RecordingError};
-use input::{Action, DeskConfig, HeadConfig, KeyboardKey, MouseButton, MouseEvent, Nanos, SECOND, Sample, VehicleKind};
+use input::{
+    Action, DeskConfig, HeadConfig, KeyboardKey, MouseButton, MouseEvent, Nanos, SECOND, Sample, SampleSource,
+    VehicleKind, WandConfig,
+};
 use ride::{
     LightSpeed, Notice, Replay, ReplayError, Replayed, RideFrame, RideStart, Setup, Simulation, VehicleSettings,
 };
@@ -357,6 +362,73 @@ fn verify(setup: &Setup, entries: Vec<RecordingEntry>) -> Result<u64, ReplayErro
 fn a_replay_is_the_ride() {
     let setup = setup(VehicleKind::Bicycle);
     assert_eq!(verify(&setup, entries(&setup, &busy_ride())).unwrap(), 541);
+}
+
+/// Reports of a headset that is worn, at 90 Hz: a head that moves, a right hand that drives ahead from the third second
+/// on, and a left hand whose stick is flicked.
+fn worn_ride() -> Vec<Sample> {
+    let report = |number: u64| {
+        let time = number as f32 / 90.0;
+        let head = XrPose {
+            position_m: Some([0.3 * time.sin(), 1.6 + 0.02 * (7.0 * time).cos(), 0.2 * (2.0 * time).sin()]),
+            orientation: Some([0.0, (0.2 * time).sin(), 0.0, (0.2 * time).cos()]),
+            ..XrPose::default()
+        };
+        let mut hands = [XrHand::default(); 2];
+        hands[0].axes[0] = if number % 90 < 45 { 0.0 } else { [-1.0, 1.0, -0.8][(number / 90 % 3) as usize] };
+        hands[1].axes[1] = if number > 270 { 0.6 } else { 0.0 };
+        let report = XrReport { time_ns: (number * SECOND / 90) as i64, head, hands, stage_moves: 0 };
+        Sample::bytes(number * SECOND / 90, SampleSource::Openxr, report.to_bytes())
+    };
+    let mut samples: Vec<Sample> = (0..9 * 90).map(report).collect();
+    samples.insert(400, Sample::action(400 * SECOND / 90, &Action::SnapTurn(45.0)));
+    samples.insert(600, Sample::action(599 * SECOND / 90, &Action::Stance(Stance::Standing)));
+    samples
+}
+
+/// Settings of a ride in a headset.
+fn worn(snap_turn_deg: f64) -> Setup {
+    let wand = Some(WandConfig { sensor: 2, ..WandConfig::default() });
+    let recentre = Recentring::Start;
+    let head = HeadConfig { snap_turn_deg, wand, recentre, ..HeadConfig::new("openxr://".parse().unwrap()) };
+    Setup { desk: DeskConfig { head: Some(head), ..Default::default() }, ..setup(VehicleKind::Drive) }
+}
+
+#[test]
+fn turns_in_steps_and_stances_replay_to_the_bit_and_are_none_where_they_are_off() {
+    let setup = worn(30.0);
+    let samples = worn_ride();
+    let ridden = frames(&mut Simulation::new(setup.clone(), Arc::new(OpenPlane)).unwrap(), &samples, times(9));
+    let recorded = entries(&setup, &samples).into_iter().map(Ok);
+    let mut replay = Replay::of(recorded, setup, Arc::new(OpenPlane)).unwrap();
+    for before in &ridden {
+        let Replayed { frame, difference } = replay.next_frame().unwrap().unwrap();
+        assert_eq!(difference, None);
+        assert_eq!(frame.controls, before.controls);
+    }
+    // Heading of the head, degrees to the left, less that of the same ride without turns.
+    let off: Vec<Sample> = samples.iter().filter(|sample| sample.source == SampleSource::Openxr).cloned().collect();
+    let plain = frames(&mut Simulation::new(worn(0.0), Arc::new(OpenPlane)).unwrap(), &off, times(9));
+    let turned_deg = |second: f64| {
+        let frame = (second * 60.0) as usize;
+        let [turned, plain] = [&ridden, &plain].map(|frames| frames[frame].controls.head.unwrap().orientation);
+        let nose = |turn: glam::DQuat| turn * DVec3::NEG_Z;
+        let (sine, cosine) = (nose(plain).cross(nose(turned)).y, nose(plain).dot(nose(turned)));
+        sine.atan2(cosine).to_degrees().round()
+    };
+    // To the left, to the right, to the left, each at half of its second; from 4.4 s on by 45°.
+    let expected =
+        [(0.3, 0.0), (0.8, 30.0), (1.3, 30.0), (1.8, 0.0), (2.8, 30.0), (3.8, 60.0), (4.8, 15.0), (5.8, 60.0)];
+    for (second, expected) in expected {
+        assert_eq!(turned_deg(second), expected, "{second} s");
+    }
+    // A flick moves nobody: the fastest head is as fast as without.
+    let fastest = |frames: &[RideFrame]| {
+        let speeds = frames.iter().filter_map(|frame| frame.controls.head).map(|head| head.velocity_m_s.length());
+        speeds.fold(0.0, f64::max)
+    };
+    let [turned, plain] = [&ridden, &plain].map(|frames| fastest(&frames[..6 * 60]));
+    assert!((turned / plain - 1.0).abs() < 1e-9, "{turned} m/s, {plain} m/s");
 }
 
 #[test]
