@@ -77,7 +77,8 @@ pub struct HeadConfig {
     #[serde(default, skip_serializing_if = "is_zero")]
     pub snap_turn_deg: f64,
     /// Edition of the rules by which the poses of the head count: since edition 2 its turn moves the eyes, and real
-    /// time is the head's own; since edition 3 poses that can only be in another unit are rejected. Recordings without
+    /// time is the head's own; since edition 3 poses that can only be in another unit are rejected; since edition 4
+    /// a headset's straight pose keeps what is upright. Recordings without
     /// it are of edition 1.
     #[serde(default = "first_edition")]
     pub edition: u32,
@@ -95,7 +96,7 @@ fn is_zero(number: &f64) -> bool {
 }
 
 /// Present edition of the rules by which the poses of the head count.
-pub const HEAD_EDITION: u32 = 3;
+pub const HEAD_EDITION: u32 = 4;
 
 fn first_edition() -> u32 {
     1
@@ -284,6 +285,11 @@ impl HeadConfig {
     /// True if a pose in another unit is known by its distance.
     pub(super) fn knows_units(&self) -> bool {
         self.edition >= 3
+    }
+
+    /// True if the tracker knows what is upright, and a straight pose keeps that.
+    pub(super) fn keeps_upright(&self) -> bool {
+        self.edition >= 4 && self.url == TrackerUrl::Openxr
     }
 
     /// True if the tracker is opentrack.

@@ -10,7 +10,7 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stance {
-    /// Seated: the straight pose is the seat's in full, whatever its height was.
+    /// Seated: the straight pose is the seat's, whatever its height was; a headset's keeps what is upright.
     #[default]
     Seated,
     /// Standing: place in the plane and heading are the seat's; the height above the tracker's floor is kept, and what

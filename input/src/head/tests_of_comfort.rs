@@ -189,11 +189,19 @@ fn who_stands_keeps_height_and_what_is_upright() {
     // From the 35th to the 55th frame, the rider sits.
     assert!(heights.all(|(number, off)| (35..55).contains(&number) || off.abs() < ROUNDING_M));
 
-    // Who sits has the seat's height, as ever.
+    // Who sits has the seat's height, and keeps what is upright, too; before edition 4 the whole look was straight.
+    let seat = DVec3::from_array(HOME);
     let mut sits = head(Stance::Seated, VelocityFilter::default());
+    let before = HeadConfig { edition: 3, ..sits.config().clone() };
     sits.pose(&pose(0, first, look));
-    near(sits.state(0).position_m, DVec3::from_array(HOME), ROUNDING_M);
-    near(nose(&sits.state(0)), DVec3::NEG_Z, ROUNDING_M);
+    near(sits.state(0).position_m, seat, ROUNDING_M);
+    near(nose(&sits.state(0)), ahead, ROUNDING_M);
+    let level = |head: &TrackedHead| (head.state(0).orientation * DVec3::X).y - (look * DVec3::X).y;
+    assert!(level(&sits).abs() < ROUNDING_M, "the head leans as it does");
+    let mut sat = TrackedHead::new(before).unwrap();
+    sat.pose(&pose(0, first, look));
+    near(sat.state(0).position_m, seat, ROUNDING_M);
+    near(nose(&sat.state(0)), DVec3::NEG_Z, ROUNDING_M);
     sits.take_stance(Stance::Standing);
     near(sits.state(0).position_m, DVec3::new(HOME[0], first.y, HOME[2]), ROUNDING_M);
     assert!((nose(&sits.state(0)).y - (look * DVec3::NEG_Z).y).abs() < ROUNDING_M);

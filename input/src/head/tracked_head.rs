@@ -170,18 +170,21 @@ impl TrackedHead {
     fn straighten(&mut self, mut seen: SeenPose) {
         let home = Rigid { position: DVec3::from_array(self.config.home), orientation: DQuat::IDENTITY };
         let before = self.room_from_straight();
-        match self.config.stance {
-            Stance::Seated => {
-                let straight = home * seen.room_from_head.inverse();
-                self.room_from_straight = Some(straight * before);
-                seen.room_from_head = home;
+        let stands = self.config.stance == Stance::Standing;
+        if stands || self.config.keeps_upright() {
+            let tracked = before.inverse() * seen.room_from_head;
+            let mut straight = upright(&tracked, home.position);
+            if stands {
+                straight.position.y = 0.0;
             }
-            Stance::Standing => {
-                let tracked = before.inverse() * seen.room_from_head;
-                let straight = upright(&tracked, home.position);
-                self.room_from_straight = Some(straight);
-                seen.room_from_head = straight * tracked;
+            self.room_from_straight = Some(straight);
+            seen.room_from_head = straight * tracked;
+            if !stands {
+                seen.room_from_head.position = home.position;
             }
+        } else {
+            self.room_from_straight = Some(home * seen.room_from_head.inverse() * before);
+            seen.room_from_head = home;
         }
         // The step is no motion.
         self.restart(&seen, 0.0);
@@ -337,12 +340,11 @@ impl TrackedHead {
     }
 }
 
-/// Transform that takes a pose to the vertical through `home`, with its heading ahead: a turn about the vertical and a
-/// shift in the plane, so that heights stay.
+/// Transform that takes a pose to `home`, with its heading ahead: a turn about the vertical and a shift, so that what is
+/// upright stays so.
 fn upright(pose: &Rigid, home: DVec3) -> Rigid {
     let orientation = DQuat::from_rotation_y(-heading_rad(pose.orientation));
-    let shift = home - orientation * pose.position;
-    Rigid { position: DVec3::new(shift.x, 0.0, shift.z), orientation }
+    Rigid { position: home - orientation * pose.position, orientation }
 }
 
 /// Heading of a turn: the angle to the left about y from −z to where it looks, radians. Who looks straight up or down
