@@ -36,8 +36,8 @@ impl EyeInWorld {
         space(self.world_from_eye * four(-1.0, seen.normalize())).normalize()
     }
 
-    /// Distance in the eye's frame of what the eye sees in a direction of the room's axes, if it is so far in the world,
-    /// metres.
+    /// Distance in the eye's frame of what the eye sees in a direction of the room's axes, if it is so far in the
+    /// world, metres.
     pub fn apparent_m(&self, seen: DVec3, distance_m: f64) -> f64 {
         // Light that comes from one metre in the eye's frame comes from so far in the world.
         distance_m / space(self.world_from_eye * four(-1.0, seen.normalize())).length()

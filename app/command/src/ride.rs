@@ -80,8 +80,8 @@ pub struct RideOptions {
     #[arg(long, value_enum, default_value = "overlap", help_heading = "Picture")]
     pub latency: Latency,
     /// Frames per second that a window or a room holds, by drawing fewer pixels and enlarging them; `off` draws every
-    /// pixel however long it takes. At rest the picture is drawn to the full. A headset keeps its own rate, or takes the
-    /// nearest to this that it can [default: 30; in a headset its own].
+    /// pixel however long it takes. At rest the picture is drawn to the full. A headset keeps its own rate, or takes
+    /// the nearest to this that it can [default: 30; in a headset its own].
     #[arg(long, value_name = "FPS", value_parser = values::frame_rate, help_heading = "Picture")]
     pub frame_rate: Option<FrameRate>,
     /// Room in whose windows the ride is shown: window, desk, stereo-wall, cave4, cave6, curved, dome6, a display file

@@ -1,8 +1,8 @@
 //! Parts of a picture that nobody sees, such as the corners of a headset's pictures: no light is worked out for them.
 
 use crate::display::{UNIFORM, contents, group, layout, module, pipeline_layout};
+use crate::format::{DEPTH_FORMAT, Format};
 use crate::gpu::Gpu;
-use crate::target::{DEPTH_FORMAT, Format};
 use bytemuck::{bytes_of, cast_slice};
 use glam::Vec4;
 use view::Tangents;

@@ -8,6 +8,7 @@
 pub mod certainty;
 pub mod choice;
 pub mod display;
+mod format;
 mod gpu;
 mod hidden_area;
 mod image;

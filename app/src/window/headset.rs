@@ -114,8 +114,8 @@ impl Worn {
         self.viewer.follow(report)
     }
 
-    /// Channels for its views, which were not drawn yet: without what no lens shows, and with the depth that the runtime
-    /// takes.
+    /// Channels for its views, which were not drawn yet: without what no lens shows, and with the depth that the
+    /// runtime takes.
     pub(super) fn fit(&self, gpu: &Gpu, walls: &mut Walls) {
         let Some(session) = &self.session else { return };
         walls.headset = Some(HeadsetEye::usual(session.sizes().len()));

@@ -47,8 +47,8 @@ impl Walls {
         }
     }
 
-    /// Fills `depth` with that of a channel's picture: reversed, 1 at `near_m` before the eye and 0 at infinity; apparent
-    /// places in the observer's frame. False, and nothing is drawn, if the picture has none.
+    /// Fills `depth` with that of a channel's picture: reversed, 1 at `near_m` before the eye and 0 at infinity;
+    /// apparent places in the observer's frame. False, and nothing is drawn, if the picture has none.
     pub fn show_depth(
         &self,
         gpu: &Gpu,

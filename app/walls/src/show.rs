@@ -168,8 +168,8 @@ impl Walls {
         self.show_veil(gpu, encoder, channel, (screen, viewport), self.fade);
     }
 
-    /// Factor of a channel's light besides the common exposure, which is made for the scale with which the first channel
-    /// stores its light.
+    /// Factor of a channel's light besides the common exposure, which is made for the scale with which the first
+    /// channel stores its light.
     pub(crate) fn exposure(&self, channel: usize) -> f32 {
         let first = self.pictures.first().map_or(1.0, |picture| picture.stored.scale);
         (first / self.pictures[channel].stored.scale) as f32

@@ -340,8 +340,8 @@ impl TrackedHead {
     }
 }
 
-/// Transform that takes a pose to `home`, with its heading ahead: a turn about the vertical and a shift, so that what is
-/// upright stays so.
+/// Transform that takes a pose to `home`, with its heading ahead: a turn about the vertical and a shift, so that what
+/// is upright stays so.
 fn upright(pose: &Rigid, home: DVec3) -> Rigid {
     let orientation = DQuat::from_rotation_y(-heading_rad(pose.orientation));
     Rigid { position: home - orientation * pose.position, orientation }

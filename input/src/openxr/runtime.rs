@@ -260,8 +260,8 @@ fn known(place: &xr::sys::SpaceLocation, motion: &xr::sys::SpaceVelocity) -> XrP
 /// News of a runtime, besides the state of the session.
 #[derive(Clone, Debug, Default)]
 pub struct XrNews {
-    /// Times at which the runtime moves the places that its spaces are about: its user has recentred, or set the room up
-    /// anew.
+    /// Times at which the runtime moves the places that its spaces are about: its user has recentred, or set the room
+    /// up anew.
     pub stage_moves: Vec<xr::Time>,
     /// True if other parts of the pictures than before are those that no lens shows.
     pub masks_changed: bool,

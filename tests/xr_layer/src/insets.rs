@@ -1,5 +1,5 @@
-//! Finer views within those of both eyes, as some headsets have them: the layer plays out a headset with four views over
-//! a runtime that has two.
+//! Finer views within those of both eyes, as some headsets have them: the layer plays out a headset with four views
+//! over a runtime that has two.
 
 use crate::layer::with;
 use openxr::sys::{self, Result, ViewConfigurationType};
