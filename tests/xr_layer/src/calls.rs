@@ -158,10 +158,10 @@ unsafe extern "system" fn begin_session(session: sys::Session, info: *const sys:
     if state != SessionState::READY {
         return Result::ERROR_SESSION_NOT_READY;
     }
-    // SAFETY: passed on as it came. The runtime's session runs on while the program's rests.
     let result = if begun {
         Result::SUCCESS
     } else {
+        // SAFETY: passed on with the runtime's kind of views. Its session runs on while the program's rests.
         unsafe {
             let primary_view_configuration_type = below((*info).primary_view_configuration_type);
             let info = sys::SessionBeginInfo { primary_view_configuration_type, ..*info };
