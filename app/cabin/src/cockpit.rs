@@ -83,6 +83,8 @@ fn marks() -> Vec<[DVec2; 2]> {
 fn off_rad(place: DVec2, marks: &[[DVec2; 2]]) -> f64 {
     /// Values of the ellipse's equation between which hoop and marks lie.
     const NEAR: std::ops::Range<f64> = -0.3..0.2;
+    /// Square of the distance from a mark's outer end, in lengths of the mark, within which it can be near.
+    const MARK_REACH: f64 = 4.0;
     let reach = reach(place.y);
     let value = (place / reach).length_squared() - 1.0;
     if !NEAR.contains(&value) {
@@ -95,7 +97,10 @@ fn off_rad(place: DVec2, marks: &[[DVec2; 2]]) -> f64 {
         let share = ((place - *from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
         place - (*from + share * along)
     };
-    let ways = marks.iter().map(to_mark).chain([to_hoop]);
+    // A mark that is farther away than it is long is not the next one, or not near.
+    let is_near =
+        |[from, to]: &&[DVec2; 2]| (place - *from).length_squared() <= MARK_REACH * (*to - *from).length_squared();
+    let ways = marks.iter().filter(is_near).map(to_mark).chain([to_hoop]);
     ways.map(|way| seen_rad(place, way)).fold(f64::INFINITY, f64::min)
 }
 

@@ -89,10 +89,16 @@ impl ViewPictures {
     ) -> xr::Result<Vec<Self>> {
         let made = |(first, count, size)| {
             let colour = Chain::new(session, device, size, count, format)?;
-            let depth = with_depth.then(|| Chain::new(session, device, size, count, DEPTH)).transpose()?;
+            // A runtime that refuses depth after all gets none.
+            let depth = with_depth.then(|| Chain::new(session, device, size, count, DEPTH)).and_then(Result::ok);
             Ok(Self { first, count, size, colour, depth })
         };
         groups(sizes).into_iter().map(made).collect()
+    }
+
+    /// True if they have depth.
+    pub fn has_depth(&self) -> bool {
+        self.depth.is_some()
     }
 
     /// True for a runtime that takes depth in the format in which it is drawn.

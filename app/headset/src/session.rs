@@ -134,6 +134,11 @@ impl Headset {
         &self.sizes
     }
 
+    /// True if the runtime takes the depth of pictures.
+    pub fn takes_depth(&self) -> bool {
+        self.pictures.iter().all(ViewPictures::has_depth)
+    }
+
     /// Triangles of a view's picture that no lens shows: the tangents of their corners to the right and up, three by
     /// three.
     pub fn hidden(&self, view: usize) -> Vec<[f32; 2]> {

@@ -122,6 +122,7 @@ impl RecordedRide {
                     | Action::Next(_)
                     | Action::Stance(_)
                     | Action::SnapTurn(_)
+                    | Action::Recentre
             )
         };
         actions.into_iter().filter(|action| of_window(action) || Presentation::repeats(action)).collect()

@@ -36,7 +36,7 @@ impl Open {
             match action {
                 Action::GoOn | Action::Answer(_) => self.ride.live.act_on_tour(&action),
                 Action::ToggleRecording => self.ride.live.toggle_recording(),
-                Action::Recentre => {
+                Action::Recentre if !self.ride.live.is_recorded() => {
                     let told = self.ride.live.straightened();
                     self.ride.live.tell(told);
                 }
@@ -45,12 +45,14 @@ impl Open {
                     self.ride.live.tell(told);
                 }
                 // The desk has turned the head of a rider, and knows nothing of whoever watches.
-                Action::Stance(_) | Action::SnapTurn(_) => {
+                Action::Stance(_) | Action::SnapTurn(_) | Action::Recentre => {
                     if let Some(worn) = self.worn.as_mut().filter(|_| self.ride.live.is_recorded()) {
                         worn.viewer.act(&action);
                     }
                 }
                 Action::Photo => {
+                    // A photo shows the world, also where no lens does.
+                    self.draw_for_window();
                     let development = self.presentation.development;
                     let taken = photo::take(&self.gpu, &mut self.ride.renderer, &mut self.canvas, &development);
                     self.tell_photo(taken);

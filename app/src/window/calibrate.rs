@@ -15,7 +15,9 @@ impl Open {
 
     /// Starts or resumes moving the corners of a room's channels.
     pub fn calibrate(&mut self) {
-        let Canvas::Room(walls) = &mut self.canvas else {
+        // The pictures of a headset have no corners that anybody could move.
+        let has_corners = self.worn.is_none();
+        let (Canvas::Room(walls), true) = (&mut self.canvas, has_corners) else {
             return self.ride.live.tell(self.presentation.language.text(Phrase::CornersNeedRoom));
         };
         let begun = || Calibrating::new(self.room.display_name.clone(), &walls.display);

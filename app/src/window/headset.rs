@@ -23,6 +23,8 @@ use walls::Walls;
 pub(super) struct Worn {
     /// Session of the headset; `None` once it has ended.
     pub(super) session: Option<Headset>,
+    /// True if the channels are drawn for its views, false if for a window alone.
+    pub(super) is_drawn_for: bool,
     /// Report of the last turn, until the headset rests.
     pub(super) last: Option<XrReport>,
     /// Copy of the left eye's picture, for the window.
@@ -53,17 +55,20 @@ pub(super) fn wear(frame_rate: Option<FrameRate>, head: Option<&HeadConfig>) -> 
     let (headset, runtime) = session.names();
     tell(format_args!("headset: {headset}, by {runtime}"));
     if let Some(FrameRate::Held(wanted)) = frame_rate {
-        match session.choose_rate(wanted)? {
-            Some(rate) => tell(format_args!("headset: {rate} frames per second")),
-            None => tell(format_args!("headset: {runtime} sets its frame rate by itself; --frame-rate is left out")),
+        match session.choose_rate(wanted) {
+            Err(error) => tell(format_args!("headset: its frame rate stays as it is: {error}")),
+            Ok(Some(rate)) => tell(format_args!("headset: {rate} frames per second")),
+            Ok(None) => {
+                tell(format_args!("headset: {runtime} sets its frame rate by itself; --frame-rate is left out"))
+            }
         }
     }
     let sizes = session.sizes();
     let display = Display::headset(HEADSET, &HeadsetEye::usual(sizes.len()), sizes);
     let format = session.format();
     let viewer = HeadsetViewer::new(&display, head)?;
-    let (last, mirror, fade) = (None, None, HeadFade::default());
-    Ok((device.gpu, Worn { session: Some(session), last, mirror, format, viewer, fade }, display))
+    let (session, last, mirror, fade) = (Some(session), None, None, HeadFade::default());
+    Ok((device.gpu, Worn { session, is_drawn_for: false, last, mirror, format, viewer, fade }, display))
 }
 
 impl HeadsetViewer {
@@ -91,6 +96,7 @@ impl HeadsetViewer {
         match action {
             Action::Stance(stance) => self.head.take_stance(*stance),
             Action::SnapTurn(degrees) => self.head.snap_by(*degrees),
+            Action::Recentre => self.head.recentre(),
             _ => {}
         }
     }
@@ -114,13 +120,22 @@ impl Worn {
         self.viewer.follow(report)
     }
 
-    /// Channels for its views, which were not drawn yet: without what no lens shows, and with the depth that the
-    /// runtime takes.
-    pub(super) fn fit(&self, gpu: &Gpu, walls: &mut Walls) {
+    /// Draws the channels for its views from now on: without what no lens shows, and with the depth that the runtime
+    /// takes.
+    pub(super) fn fit(&mut self, gpu: &Gpu, walls: &mut Walls) {
         let Some(session) = &self.session else { return };
-        walls.headset = Some(HeadsetEye::usual(session.sizes().len()));
-        walls.keep_depth(gpu);
-        hide(session, gpu, walls);
+        walls.headset.get_or_insert_with(|| HeadsetEye::usual(session.sizes().len()));
+        if session.takes_depth() {
+            walls.keep_depth(gpu);
+        }
+        (0..session.sizes().len()).for_each(|view| walls.hide(gpu, view, &session.hidden(view)));
+        self.is_drawn_for = true;
+    }
+
+    /// Draws the channels for a window or a photo alone from now on.
+    pub(super) fn leave(&mut self, walls: &mut Walls) {
+        walls.show_whole();
+        self.is_drawn_for = false;
     }
 
     /// Format in which its pictures are written.
@@ -146,11 +161,6 @@ impl Worn {
         canvas.show(gpu, encoder, 0, development, view, [0, 0]);
         Some(SizedTexture::new(*id, size.map(|side| side as f32)))
     }
-}
-
-/// Leaves out of the channels what no lens shows.
-pub(super) fn hide(session: &Headset, gpu: &Gpu, walls: &mut Walls) {
-    (0..session.sizes().len()).for_each(|view| walls.hide(gpu, view, &session.hidden(view)));
 }
 
 /// Shows the left eye's picture in the window, whole.
@@ -217,6 +227,12 @@ mod tests {
         assert!((seat.position_m - display.viewer.head_m).length() < 1e-6, "{seat:?}");
         assert!((seat.orientation * DVec3::NEG_Z - DVec3::NEG_Z).length() < 1e-6, "{seat:?}");
         assert_eq!(seat.velocity_m_s, DVec3::ZERO);
+        // The straight pose is wherever the viewer says.
+        std::thread::sleep(std::time::Duration::from_millis(2));
+        let aside = viewer.follow(&report(200_000_000, [2.8, 1.2, -4.95], turned));
+        assert!((aside.position_m - display.viewer.head_m).length() > 0.04, "{aside:?}");
+        viewer.act(&Action::Recentre);
+        assert!((viewer.head.state(0).position_m - display.viewer.head_m).length() < 1e-6);
         viewer.act(&Action::Stance(Stance::Standing));
         assert!((viewer.head.state(0).position_m.y - 1.2).abs() < 1e-6);
     }

@@ -1,6 +1,5 @@
 //! Turns of a headset: its head and hands come into the ride, its pictures go to its runtime.
 
-use super::headset::hide;
 use super::open::Open;
 use crate::error::Error;
 use crate::output::say::tell;
@@ -37,11 +36,10 @@ impl Open {
                 if !turn.period.is_zero() {
                     self.ride.hold_rate(turn.period.as_secs_f64().recip());
                 }
-                let session = self.worn.as_ref().and_then(|worn| worn.session.as_ref());
-                if let Some((walls, session)) = self.canvas.walls_mut().zip(session) {
+                if let Some((walls, worn)) = self.canvas.walls_mut().zip(self.worn.as_mut()) {
                     walls.headset = Some(turn.eyes.clone());
-                    if turn.masks_changed {
-                        hide(session, &self.gpu, walls);
+                    if turn.masks_changed || !worn.is_drawn_for {
+                        worn.fit(&self.gpu, walls);
                     }
                 }
                 Some(turn)
@@ -80,6 +78,7 @@ impl Open {
     /// Lets go of all that the hands held when the headset was put down. The ride goes on in the window.
     fn rest_headset(&mut self) {
         let Some(last) = self.worn.as_mut().and_then(|worn| worn.last.take()) else { return };
+        self.draw_for_window();
         self.ride.viewer = None;
         self.say_in_time(|at| Sample::bytes(at, SampleSource::Openxr, last.at_rest().to_bytes()));
     }
@@ -90,11 +89,19 @@ impl Open {
         self.ride.live.say(|at| sample(at.saturating_sub(TICK)));
     }
 
+    /// Draws what a window shows, whole and as bright as it is, until the headset wants a frame again.
+    pub(super) fn draw_for_window(&mut self) {
+        if let Some((worn, walls)) = self.worn.as_mut().zip(self.canvas.walls_mut()) {
+            worn.leave(walls);
+        }
+    }
+
     /// Ends the session with the headset. The ride goes on in the window.
     fn lose_headset(&mut self, error: &HeadsetError) {
         if let Some(worn) = &mut self.worn {
             worn.session = None;
         }
+        self.draw_for_window();
         self.ride.viewer = None;
         self.say_in_time(|at| Sample::closed(at, SampleSource::Openxr));
         tell(Language::English.fill(Phrase::HeadsetLost, &[&sentence(error, Language::English)]));

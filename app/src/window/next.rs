@@ -9,12 +9,14 @@ use crate::session::waiting::WaitingRide;
 use cabin::Guide;
 use command::{DialOptions, RideOptions, SceneChoice, map_scale_of_windows};
 use input::{Action, Sample, Setting};
+use presentation::Presentation;
 use render::choice::Choice;
 use view::{Dial, Occasion};
 use words::Phrase;
 
 /// Settings of the picture that a rider keeps for the next ride.
-const KEPT: [Setting; 5] = [Setting::Exposure, Setting::Tone, Setting::Gamut, Setting::Latency, Setting::Renderer];
+const KEPT: [Setting; 6] =
+    [Setting::Exposure, Setting::Tone, Setting::Gamut, Setting::Latency, Setting::Renderer, Setting::Vignette];
 
 impl Open {
     /// Begins to make another ride ready: in a scene, or on a tour.
@@ -29,7 +31,12 @@ impl Open {
             _ => return,
         };
         let options = RideOptions { language: Some(language), ..options };
-        self.making = Some(Making::ride(what.clone(), options, self.room.clone(), self.dial));
+        // The rider stays as comfortable as before.
+        let mut room = self.room.clone();
+        if let Some((next, present)) = room.head.as_mut().zip(self.ride.live.head()) {
+            (next.stance, next.snap_turn_deg) = (present.config().stance, present.config().snap_turn_deg);
+        }
+        self.making = Some(Making::ride(what.clone(), options, room, self.dial));
     }
 
     /// Keeps the way of drawing that is asked for, and tells of what is being made ready.
@@ -133,7 +140,9 @@ impl Open {
                 self.ride.live.say(|at| Sample::action(at, &Action::Set(setting, text)));
             }
         }
-        (self.presentation, self.fresh, self.options) = (presentation, presentation, options);
+        let cockpit = self.presentation.cockpit;
+        self.presentation = Presentation { cockpit, ..presentation };
+        (self.fresh, self.options) = (presentation, options);
         Ok(self)
     }
 

@@ -120,7 +120,7 @@ impl Open {
         let mouse_looks = options.replay.is_none() && room.head.is_none() && turns;
         let kiosk = options.kiosk.kiosk;
         let mut display = room.display.clone();
-        let (device, worn) = match room.is_headset() {
+        let (device, mut worn) = match room.is_headset() {
             false => (None, None),
             true => {
                 let (gpu, worn, eyes) = wear(options.frame_rate, room.head.as_ref())?;
@@ -203,7 +203,7 @@ impl Open {
                 let quality = Quality { format, samples: 1, density: 1.0, smooth: true };
                 let written = worn.as_ref().map_or(screen_format, Worn::format);
                 let mut walls = Walls::new(&gpu, display, quality, written);
-                if let Some(worn) = &worn {
+                if let Some(worn) = &mut worn {
                     worn.fit(&gpu, &mut walls);
                 }
                 if options.preview && worn.is_none() {

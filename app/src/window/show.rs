@@ -171,7 +171,8 @@ impl Open {
 
     /// Darkens the edges of a headset's pictures with the motion of the frame that is shown.
     fn darken_edges(&mut self, vignette: Vignette) {
-        let (Some(frame), true) = (&self.ride.frame, self.worn.is_some()) else { return };
+        let is_worn = self.worn.as_ref().is_some_and(|worn| worn.is_drawn_for);
+        let (Some(frame), true) = (&self.ride.frame, is_worn) else { return };
         self.unfelt.follow(frame);
         if let Some(walls) = self.canvas.walls_mut() {
             walls.vignette = self.unfelt.veil(vignette);

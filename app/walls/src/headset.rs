@@ -1,5 +1,7 @@
 //! Output of the channels' light to the pictures of a headset.
 
+use crate::picture::ChannelPicture;
+use crate::veil::Veil;
 use crate::walls::Walls;
 use render::display::Development;
 use render::{Gpu, SceneDepth};
@@ -9,6 +11,12 @@ impl Walls {
     pub fn keep_depth(&mut self, gpu: &Gpu) {
         self.scene_depth.get_or_insert_with(|| SceneDepth::new(gpu));
         self.pictures.iter_mut().for_each(|picture| picture.keep_depth());
+    }
+
+    /// Draws all parts of the pictures from now on, keeps no depth, and darkens no edges.
+    pub fn show_whole(&mut self) {
+        self.vignette = Veil::NONE;
+        self.pictures.iter_mut().for_each(ChannelPicture::show_whole);
     }
 
     /// Draws nothing in these triangles of a channel's picture from now on: tangents to the right and up, three by
@@ -57,10 +65,8 @@ impl Walls {
         near_m: f64,
         depth: &wgpu::TextureView,
     ) -> bool {
-        let Some((scene_depth, (target, drawn_m))) = self.scene_depth.as_ref().zip(self.pictures[channel].depth())
-        else {
-            return false;
-        };
+        let of_light = self.pictures[channel].depth().filter(|_| self.grids.is_none());
+        let Some((scene_depth, (target, drawn_m))) = self.scene_depth.as_ref().zip(of_light) else { return false };
         scene_depth.draw(gpu, encoder, target, depth, (drawn_m, near_m));
         true
     }

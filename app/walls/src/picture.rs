@@ -127,6 +127,13 @@ impl ChannelPicture {
         }
     }
 
+    /// Draws all of a flat picture from now on, and keeps no depth.
+    pub fn show_whole(&mut self) {
+        if let PictureTarget::Flat(target) = &mut self.target {
+            (target.hidden, target.keeps_depth) = (None, false);
+        }
+    }
+
     /// Target of a flat picture with the depth of what was drawn last, and its near plane, metres.
     pub fn depth(&self) -> Option<(&Radiance, f64)> {
         match &self.target {

@@ -88,7 +88,11 @@ impl OpenxrDecoder {
             Some(_) => right,
             None => return,
         };
-        self.flicks += self.flick.take(other.axes[0].into(), other.axes[1].into());
+        if other.axes == [0.0; 4] && other.pose == XrPose::default() {
+            self.flick.let_go();
+        } else {
+            self.flicks += self.flick.take(other.axes[0].into(), other.axes[1].into());
+        }
     }
 }
 
@@ -132,6 +136,7 @@ mod tests {
     //! one hand, with its buttons and axes, and the other hand's stick is flicked; a stage that moves is told; what is
     //! no report is counted.
     use super::*;
+    use crate::openxr::report::XrHand;
     use crate::openxr::report::tests::report;
     use crate::wand::config::WandConfig;
 
@@ -181,6 +186,15 @@ mod tests {
                 report.hands[hand].axes[0] = right;
                 decoder.bytes(7, &report.to_bytes(), &mut Actions::default());
                 assert_eq!(decoder.take_flicks(), flicks, "wand {wand}, hand {hand}");
+            }
+            // Nor has whoever holds it while another program has the hands.
+            for (hand, flicks) in
+                [(XrHand::default(), 0), (XrHand { axes: [1.0, 0.0, 0.0, 0.0], ..XrHand::default() }, 0)]
+            {
+                let mut report = report();
+                report.hands[other] = hand;
+                decoder.bytes(8, &report.to_bytes(), &mut Actions::default());
+                assert_eq!(decoder.take_flicks(), flicks);
             }
             // Whoever holds the stick aside while the runtime comes has not flicked it.
             decoder.reset(8);

@@ -33,7 +33,7 @@ const POSE_LENGTH: usize = 53;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum XrReportError {
     /// Bytes of another length.
-    #[error("a report of {0} bytes: expected {REPORT_LENGTH}")]
+    #[error("a report of {0} bytes: edition 1 has {FIRST_LENGTH}, edition {EDITION} has {REPORT_LENGTH}")]
     Length(usize),
     /// Bytes of another edition.
     #[error("a report of edition {0}: this version reads editions 1 and {EDITION}")]

@@ -12,6 +12,11 @@ pub(crate) struct StickFlick {
 }
 
 impl StickFlick {
+    /// Disarms it: nobody holds the stick, or another program has it.
+    pub(crate) fn let_go(&mut self) {
+        self.armed = false;
+    }
+
     /// Side to which the stick has been flicked: 1 to the left, −1 to the right, 0 if it has not. `right` and `ahead`
     /// are its deflections, each −1 to 1; one that goes ahead or back more than aside is no flick.
     pub(crate) fn take(&mut self, right: f64, ahead: f64) -> i32 {

@@ -28,7 +28,7 @@ use system_tests::exact::Boxes;
 use system_tests::occupants::EyeInWorld;
 use system_tests::photographer::{AS_GIVEN, DEFAULT_MAP};
 use view::{Dial, Effects, Occasion};
-use walls::{Occupant, Quality, RoomHead, Walls};
+use walls::{Occupant, PictureShares, Quality, RoomHead, Walls};
 use xr_layer::LayerScript;
 
 const BACKGROUND: [f32; 3] = [0.01, 0.02, 0.03];
@@ -162,6 +162,8 @@ struct Way {
     method: Dial,
     format: Format,
     in_one_pass: bool,
+    /// Share of the pictures' width and height that is drawn.
+    share: f64,
 }
 
 fn assert_pictures(headset: &mut Headset, gpu: &Gpu, way: Way, scene: &Scene) {
@@ -169,7 +171,7 @@ fn assert_pictures(headset: &mut Headset, gpu: &Gpu, way: Way, scene: &Scene) {
     let fast = DVec3::new(-0.6, 0.2, -1.0).normalize() * (0.9 / (1.0 - 0.81_f64).sqrt());
     let moving = (DVec3::new(0.5, -0.1, 0.3), DVec3::new(0.5, 3.0, -0.4));
     let still = (DVec3::ZERO, DVec3::ZERO);
-    let Way { method, format, in_one_pass } = way;
+    let Way { method, format, in_one_pass, share } = way;
     headset.in_one_pass = in_one_pass;
     let mut renderer =
         SceneRenderer::new(gpu, scene.clone(), format, Some(BACKGROUND), method, Occasion::Still).unwrap();
@@ -182,6 +184,7 @@ fn assert_pictures(headset: &mut Headset, gpu: &Gpu, way: Way, scene: &Scene) {
     let hidden: Vec<_> = (0..headset.sizes().len()).map(|view| headset.hidden(view)).collect();
     hidden.iter().enumerate().for_each(|(view, corners)| walls.hide(gpu, view, corners));
     walls.keep_depth(gpu);
+    walls.set_shares(PictureShares { moving: share, resting: share });
     for (celerity, (walks, turns)) in [(DVec3::ZERO, still), (fast, still), (fast, moving)] {
         let turn = next(headset);
         let head = head(&turn, walks, turns);
@@ -216,11 +219,11 @@ fn assert_pictures(headset: &mut Headset, gpu: &Gpu, way: Way, scene: &Scene) {
             let all = f64::from(size[0] * size[1]);
             let wrong =
                 pixels.clone().zip(pictures[number].chunks_exact(4)).filter(|(at, pixel)| seen.colour(*at) != **pixel);
-            let share = wrong.count() as f64 / all;
+            let differ = wrong.count() as f64 / all;
             let colours: HashSet<&[u8]> = pictures[number].chunks_exact(4).collect();
-            println!("{what}, eye at {:+.4} m: {share:.5} differ", eye.position_m.x);
+            println!("{what}, eye at {:+.4} m: {differ:.5} differ", eye.position_m.x);
             // Smoothed edges have colours of their own.
-            assert!(share <= SHARE_AT_MOST || format.samples > 1, "{what}: {share} of the pixels differ");
+            assert!(differ <= SHARE_AT_MOST || format.samples > 1, "{what}: {differ} of the pixels differ");
             assert!(colours.len() >= 4, "{} colours are too few to compare", colours.len());
             let Some(depth) = depths.get(number) else { continue };
             let error = if format.samples == 1 { DEPTH_ERROR } else { NEAREST_ERROR };
@@ -252,12 +255,14 @@ fn each_pixel_that_is_handed_over_shows_what_its_eye_sees() {
     let (plain, refined) = (LATTICE.build(), refine(&LATTICE.build(), EDGE_M).unwrap());
     let exact = Format::exact(gpu);
     for in_one_pass in [true, false] {
-        assert_pictures(&mut headset, gpu, Way { method: AS_GIVEN, format: exact, in_one_pass }, &refined);
-        assert_pictures(&mut headset, gpu, Way { method: DEFAULT_MAP, format: exact, in_one_pass }, &plain);
+        assert_pictures(&mut headset, gpu, Way { method: AS_GIVEN, format: exact, in_one_pass, share: 1.0 }, &refined);
+        assert_pictures(&mut headset, gpu, Way { method: DEFAULT_MAP, format: exact, in_one_pass, share: 1.0 }, &plain);
     }
-    // As rides are drawn: the depth is that of the nearest of several samples.
-    let smoothed = Way { method: AS_GIVEN, format: Format::fast(4), in_one_pass: true };
-    assert_pictures(&mut headset, gpu, smoothed, &refined);
+    // As rides are drawn: the depth is that of the nearest of several samples, and of fewer pixels on slow machines.
+    for share in [1.0, 0.8] {
+        let smoothed = Way { method: AS_GIVEN, format: Format::fast(4), in_one_pass: true, share };
+        assert_pictures(&mut headset, gpu, smoothed, &refined);
+    }
     drop(headset);
     device.gpu.wait().unwrap();
 }
