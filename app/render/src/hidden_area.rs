@@ -7,8 +7,8 @@ use bytemuck::{bytes_of, cast_slice};
 use glam::Vec4;
 use view::Tangents;
 
-/// Parts of a picture that stay black, nearer than everything that is drawn after them. Marks in a picture from outside,
-/// which show through what hides them, do here as well.
+/// Parts of a picture that stay black, nearer than everything that is drawn after them. Marks in a picture from
+/// outside, which show through what hides them, do here as well.
 #[derive(Clone)]
 pub struct HiddenArea {
     corners: wgpu::Buffer,

@@ -59,7 +59,7 @@ pub(super) fn wear(frame_rate: Option<FrameRate>, head: Option<&HeadConfig>) -> 
             Err(error) => tell(format_args!("headset: its frame rate stays as it is: {error}")),
             Ok(Some(rate)) => tell(format_args!("headset: {rate} frames per second")),
             Ok(None) => {
-                tell(format_args!("headset: {runtime} sets its frame rate by itself; --frame-rate is left out"))
+                tell(format_args!("headset: {runtime} sets its frame rate by itself; --frame-rate is left out"));
             }
         }
     }
