@@ -182,12 +182,14 @@ mod tests {
     use glam::{DQuat, DVec3};
     use input::WandConfig;
     use input::head::Stance;
-    use input::openxr::XrPose;
+    use input::openxr::{XrHand, XrPose};
 
     fn report(time_ns: i64, place: [f32; 3], turn: DQuat) -> Vec<u8> {
         let orientation = Some(turn.to_array().map(|part| part as f32));
         let head = XrPose { position_m: Some(place), orientation, ..XrPose::default() };
-        XrReport { time_ns, head, ..XrReport::default() }.to_bytes()
+        // The left hand is in use, and held before the eyes.
+        let hands = [XrHand { pose: head, ..XrHand::default() }, XrHand::default()];
+        XrReport { time_ns, head, hands, ..XrReport::default() }.to_bytes()
     }
 
     #[test]
