@@ -231,7 +231,9 @@ mod tests {
         assert_eq!(seat.velocity_m_s, DVec3::ZERO);
         // The straight pose is wherever the viewer says.
         std::thread::sleep(std::time::Duration::from_millis(2));
-        let aside = viewer.follow(&report(200_000_000, [2.8, 1.2, -4.95], turned));
+        let mut stepped = XrReport::from_bytes(&report(200_000_000, [2.8, 1.2, -4.95], turned)).unwrap();
+        stepped.stage_moves = 1;
+        let aside = viewer.follow(&stepped.to_bytes());
         assert!((aside.position_m - display.viewer.head_m).length() > 0.04, "{aside:?}");
         viewer.act(&Action::Recentre);
         assert!((viewer.head.state(0).position_m - display.viewer.head_m).length() < 1e-6);

@@ -374,7 +374,7 @@ fn worn_ride() -> Vec<Sample> {
             orientation: Some([0.0, (0.2 * time).sin(), 0.0, (0.2 * time).cos()]),
             ..XrPose::default()
         };
-        let mut hands = [XrHand::default(); 2];
+        let mut hands = [XrHand { pose: head, ..XrHand::default() }; 2];
         hands[0].axes[0] = if number % 90 < 45 { 0.0 } else { [-1.0, 1.0, -0.8][(number / 90 % 3) as usize] };
         hands[1].axes[1] = if number > 270 { 0.6 } else { 0.0 };
         let report = XrReport { time_ns: (number * SECOND / 90) as i64, head, hands, stage_moves: 0 };
