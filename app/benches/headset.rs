@@ -147,7 +147,7 @@ impl<'a> Bench<'a> {
             renderer: SceneRenderer::new(gpu, scene.clone(), default.format, None, dial, Occasion::Ride)?,
             walls: WAYS.iter().map(channels).collect(),
             window: texture(gpu, "window", [width, height], headset.format(), 1, usage),
-            draws_views: render::display::draws_views(gpu),
+            draws_views: walls::draws_views(gpu),
             effects: default.effects,
             start: (Event { ct: 0.0, position: scene.start.position }, celerity, orientation),
             light_m_s: scene.speed_of_light_m_s.unwrap_or(LIGHT_M_S),

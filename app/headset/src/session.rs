@@ -7,9 +7,9 @@ use ash::vk;
 use glam::{DQuat, DVec2, DVec3};
 use input::openxr::{XrHands, XrNews, XrReport, XrRuntime, XrState};
 use openxr as xr;
-use render::display::draws_views;
 use room::HeadsetEye;
 use std::time::{Duration, Instant};
+use walls::draws_views;
 
 /// Numbers of views that are drawn: one for each eye, or two for each eye, of which one lies within the other.
 const VIEW_COUNTS: [usize; 2] = [2, 4];

@@ -44,7 +44,7 @@ impl Radiance {
     }
 
     /// Depth of what was drawn, if it is kept.
-    pub(crate) fn depth(&self) -> &wgpu::TextureView {
+    pub fn depth(&self) -> &wgpu::TextureView {
         &self.depth
     }
 

@@ -6,11 +6,10 @@ use picture_files::files::{save, unused};
 use presentation::Presentation;
 use render::display::Development;
 use render::picture::{Darkroom, Studio};
-use render::sphere::SphereLight;
 use render::target::Format;
 use render::{Gpu, SceneRenderer};
 use view::Gaze;
-use walls::{FlatPicture, Walls};
+use walls::{FlatPicture, SphereLight, Walls};
 
 /// Writes the picture into `photo-001.png` or the next free number, as an eye sees it that is adapted to it. For a
 /// room, writes one file for each window. Returns the names of the files.

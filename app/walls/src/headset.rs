@@ -1,10 +1,11 @@
 //! Output of the channels' light to the pictures of a headset.
 
 use crate::picture::ChannelPicture;
+use crate::scene_depth::SceneDepth;
 use crate::veil::Veil;
 use crate::walls::Walls;
+use render::Gpu;
 use render::display::Development;
-use render::{Gpu, SceneDepth};
 
 impl Walls {
     /// Keeps the depth of the pictures from now on, so that it can be [handed on](Self::show_depth).
@@ -29,7 +30,7 @@ impl Walls {
 
     /// Shows the windows `first` and `first + 1`, of which each is the whole picture of one channel, in the two layers
     /// of `both`, in one pass; `layers` are these layers. Only for a device that
-    /// [draws views](render::display::draws_views).
+    /// [draws views](crate::draws_views).
     pub fn show_views(
         &mut self,
         gpu: &Gpu,

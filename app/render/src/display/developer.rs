@@ -152,7 +152,7 @@ impl Developer {
     }
 
     /// Writes the radiance of two views, with the factor of each besides the eye's exposure, to the two layers of a
-    /// screen, in one pass. Only for a device that [draws views](super::draws_views).
+    /// screen, in one pass. Only for a device that draws views.
     pub fn show_views(
         &mut self,
         gpu: &Gpu,

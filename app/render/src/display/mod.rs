@@ -16,7 +16,6 @@ mod developer;
 pub mod development;
 mod enlarge;
 mod passes;
-mod views;
 
 pub use adaptation::{Adaptation, Seen};
 pub use developer::{Accumulator, DevelopedPart, Developer, LINEAR_FORMAT, copy, encoded, encodes, resample};
@@ -25,4 +24,3 @@ pub use enlarge::Enlarger;
 pub use passes::{
     FILTERED, Pass, READ, UNFILTERED, UNIFORM, clear, contents, group, layout, module, over, pipeline_layout,
 };
-pub use views::draws_views;

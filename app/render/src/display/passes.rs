@@ -52,7 +52,7 @@ impl Pass {
     }
 
     /// The same, which fills the two layers of a target at once. Only for a device that
-    /// [draws views](super::draws_views).
+    /// draws views.
     pub fn of_views(
         gpu: &Gpu,
         shader: &shaders::Module,

@@ -1,10 +1,10 @@
 //! Depth of a picture, handed on to whoever turns or moves the picture afterwards.
 
-use crate::display::{UNIFORM, contents, group, layout, module, pipeline_layout};
-use crate::gpu::Gpu;
-use crate::target::{DEPTH_FORMAT, Radiance};
 use bytemuck::bytes_of;
 use glam::Vec4;
+use render::Gpu;
+use render::display::{UNIFORM, contents, group, layout, module, pipeline_layout};
+use render::target::{DEPTH_FORMAT, Radiance};
 
 /// Pass that writes the depth of a picture that was drawn into a target which keeps it.
 pub struct SceneDepth {

@@ -3,12 +3,11 @@
 //! The middle of the picture is straight ahead; its width is the whole turn, its height from straight below to straight
 //! above (equirectangular).
 
-use crate::gpu::{Gpu, GpuError};
-use crate::picture::Studio;
-use crate::scene_renderer::SceneRenderer;
-use crate::target::Format;
 use glam::{DMat3, DQuat, DVec2, DVec3, Vec4};
 use rayon::prelude::*;
+use render::picture::Studio;
+use render::target::Format;
+use render::{Gpu, GpuError, SceneRenderer};
 use std::f64::consts::PI;
 use view::{Camera, Effects, Field, Gaze, Shot, Stored, Tangents};
 

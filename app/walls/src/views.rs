@@ -1,8 +1,8 @@
 //! Whether a device fills both layers of a target in one pass.
 
-use super::passes::Pass;
-use crate::gpu::Gpu;
-use crate::picture::{SCREEN_FORMAT, Sheet};
+use render::Gpu;
+use render::display::Pass;
+use render::picture::{SCREEN_FORMAT, Sheet};
 
 /// Side of the target on which a device is tried, pixels.
 const SIDE: u32 = 4;
