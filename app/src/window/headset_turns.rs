@@ -75,10 +75,13 @@ impl Open {
         Ok(self.gpu.lost()?)
     }
 
-    /// Lets go of all that the hands held when the headset was put down. The ride goes on in the window.
+    /// Lets go of all that the hands held when the headset was put down. The ride goes on in the window, whole.
     fn rest_headset(&mut self) {
+        // A headset that has not been put on yet rests, too.
+        if self.worn.as_ref().is_some_and(|worn| worn.is_drawn_for) {
+            self.draw_for_window();
+        }
         let Some(last) = self.worn.as_mut().and_then(|worn| worn.last.take()) else { return };
-        self.draw_for_window();
         self.ride.viewer = None;
         self.say_in_time(|at| Sample::bytes(at, SampleSource::Openxr, last.at_rest().to_bytes()));
     }
