@@ -3,6 +3,7 @@
 use crate::commands::calibrating_error::CalibratingError;
 use crate::session::preferences::PreferencesError;
 use crate::session::scenes::SceneError;
+use filming::{MakerError, SinkError};
 use hardware::{SetUpError, TrackerError};
 use headset::HeadsetError;
 use kiosk::DayLogError;
@@ -10,6 +11,7 @@ use measure::MeasureError;
 use measure::choice::ChoiceError;
 use measure::extremes::ExtremesError;
 use physics::photo_surface::PhotoSurfaceError;
+use picture_files::PartError;
 use picture_files::files::WriteError;
 use picture_files::film::FilmError;
 use render::GpuError;
@@ -56,6 +58,9 @@ pub enum Error {
     /// A film that cannot be written.
     #[error(transparent)]
     Film(#[from] FilmError),
+    /// Pictures that cannot be written.
+    #[error(transparent)]
+    Sink(#[from] SinkError),
     /// A display that cannot be used.
     #[error(transparent)]
     Display(#[from] DisplayError),
@@ -146,6 +151,25 @@ pub enum Error {
     /// A recording without a single frame.
     #[error("the recording ends before its first frame: there is nothing to show")]
     NothingRidden,
+    /// A film that ended before it was whole.
+    #[error("the film was cut short: {done} of {count} pictures are there")]
+    CutShort {
+        /// Number of pictures that are there.
+        done: u64,
+        /// Number of pictures of the whole film.
+        count: u64,
+    },
+    /// A number beyond the end of a recorded ride.
+    #[error("--frames: the recording has {count} pictures, 0 to {}, and none of number {number}; name others, or change --fps", count.saturating_sub(1))]
+    BeyondFilm {
+        /// Number that was asked for.
+        number: u64,
+        /// Number of pictures.
+        count: u64,
+    },
+    /// A part of a farm that the environment does not name.
+    #[error(transparent)]
+    Part(#[from] PartError),
     /// An interruption by Ctrl-C before there was anything to keep.
     #[error("interrupted before anything was traced, so nothing was written")]
     Interrupted,
@@ -169,4 +193,13 @@ pub enum Error {
         /// Largest side that the device draws, pixels.
         limit: u32,
     },
+}
+
+impl From<MakerError> for Error {
+    fn from(error: MakerError) -> Self {
+        match error {
+            MakerError::Gpu(error) => Self::Gpu(error),
+            MakerError::Interrupted => Self::Interrupted,
+        }
+    }
 }

@@ -103,6 +103,9 @@ pub const VEIL: Module = Module { name: "veil", files: &[FULLSCREEN, include_str
 pub const INTERFACE: Module = Module { name: "interface", files: &[ENCODE, include_str!("../wgsl/interface.wgsl")] };
 /// Module that resamples flat pictures for a surface that is not flat.
 pub const RESAMPLE: Module = Module { name: "resample", files: &[FULLSCREEN, include_str!("../wgsl/resample.wgsl")] };
+/// Module that takes a picture of any projection from light of all directions.
+pub const FROM_SPHERE: Module =
+    Module { name: "from_sphere", files: &[FULLSCREEN, include_str!("../wgsl/from_sphere.wgsl")] };
 /// Module that enlarges a finished picture to the size of its window.
 pub const ENLARGE: Module = Module { name: "enlarge", files: &[FULLSCREEN, include_str!("../wgsl/enlarge.wgsl")] };
 /// Module that draws marks over a picture from outside.
@@ -112,7 +115,7 @@ pub const MARKS: Module = Module { name: "marks", files: &[include_str!("../wgsl
 pub const PROBE: Module = Module { name: "probe", files: &[ABERRATION, include_str!("../wgsl/probe.wgsl")] };
 
 /// Every module, for tests that validate them.
-pub const MODULES: [Module; 22] = [
+pub const MODULES: [Module; 23] = [
     SHEET,
     VEIL,
     SURFACE,
@@ -132,6 +135,7 @@ pub const MODULES: [Module; 22] = [
     ENCODED,
     INTERFACE,
     RESAMPLE,
+    FROM_SPHERE,
     ENLARGE,
     MARKS,
     PROBE,

@@ -2,7 +2,7 @@
 //! same.
 
 use render::display::{Adaptation, Developer, Development, Gamut, Seen, Tone};
-use render::picture::light;
+use studio::light;
 use view::Stored;
 use wgpu::util::{DeviceExt, TextureDataOrder};
 

@@ -4,12 +4,12 @@ use glam::DVec3;
 use image::{Rgb32FImage, RgbaImage};
 use physics::Celerity;
 use render::display::{Development, Gamut};
-use render::picture::{Shown, Studio};
 use render::target::Format;
 use render::{Gpu, GpuError, Pending, SceneRenderer};
 use scene::Scene;
 use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
+use studio::{Shown, Studio};
 use trace::{RayTracer, Traced, TracedPlace};
 use view::{Dial, Effects, Occasion, RendererName, Shot};
 

@@ -136,9 +136,9 @@ mod tests {
     use physics::{Celerity, Event};
     use render::SceneRenderer;
     use render::display::Development;
-    use render::picture::SCREEN_FORMAT;
     use render::target::Format;
     use room::{Display, HeadsetEye};
+    use studio::SCREEN_FORMAT;
     use view::{Dial, Effects, Occasion};
     use walls::{Occupant, Quality, RoomHead, Veil, Walls};
 

@@ -14,12 +14,14 @@
 
 mod comfort;
 mod dial;
+mod film;
 mod frame_rate;
 mod kiosk;
 mod line;
 mod measure;
 mod passed_over;
 mod picture;
+mod projection;
 mod rays;
 mod render;
 mod ride;
@@ -29,11 +31,13 @@ mod world;
 
 pub use comfort::ComfortOptions;
 pub use dial::{DialOptions, map_scale_of_stills, map_scale_of_windows};
+pub use film::{FilmOptions, PartChoice};
 pub use frame_rate::FrameRate;
 pub use kiosk::KioskOptions;
 pub use line::{CheckOptions, Command, DevicesOptions, Stop, TownOptions, parse_from};
 pub use measure::MeasureOptions;
 pub use picture::PictureOptions;
+pub use projection::ProjectionOptions;
 pub use rays::RayOptions;
 pub use render::{RenderOptions, Viewpoint};
 pub use ride::{DeviceOptions, HEADSET, RideOptions, VehicleName, VehicleOptions};

@@ -151,7 +151,10 @@ pub fn parse_from(arguments: impl IntoIterator<Item = impl Into<OsString> + Clon
                     options.display = Some(HEADSET.to_owned());
                 }
             }
-            Command::Render(options) => options.picture.is_given = picture(),
+            Command::Render(options) => {
+                options.picture.is_given = picture();
+                options.complete(given(&"size"));
+            }
             _ => {}
         }
     }

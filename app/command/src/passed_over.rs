@@ -11,13 +11,12 @@ use super::measure::MeasureOptions;
 use super::picture::PictureOptions;
 use super::render::RenderOptions;
 use super::ride::{RideOptions, VehicleName};
-use super::values::Output;
 use super::world::{SceneChoice, WorldOptions};
 use input::TrackerUrl;
 use presentation::{Latency, Vignette};
 use render::display::Development;
 use ride::Nose;
-use view::{Effects, RendererName, Transform};
+use view::{Effects, Projection, RendererName, Transform};
 
 /// Sizes of pictures and numbers of samples without an option.
 const USUAL_SIZE: [u32; 2] = [1280, 720];
@@ -118,7 +117,13 @@ impl RenderOptions {
         if self.room.display.is_some() {
             self.picture.pass_over_sizes(self.room.preview, &mut passed);
         }
-        if let Output::Light(_) = self.out {
+        if self.projection.projection != Projection::Flat {
+            let all = "the projection says which directions a picture shows";
+            passed.note(self.picture.fov.is_some(), "--fov", all);
+            let wall = "it is for flat pictures";
+            passed.note(self.projection.wall_distance.is_some(), "--wall-distance", wall);
+        }
+        if self.writes_light() {
             let light = "an .exr file holds light before it is developed";
             let (given, usual) = (self.picture.development(), Development::default());
             passed.note(given.exposure != usual.exposure, "--exposure", light);

@@ -7,16 +7,17 @@ use glam::DVec3;
 use physics::Celerity;
 
 use super::dial::DialOptions;
+use super::film::FilmOptions;
 use super::picture::PictureOptions;
+use super::projection::ProjectionOptions;
 use super::rays::RayOptions;
 use super::room::RoomOptions;
 use super::values::{self, Output};
 use super::world::WorldOptions;
+use filming::{FrameFile, StereoLayout};
 use scene::Start;
 use view::{OutsideView, Places, RendererName};
 
-/// Pictures per second of a film without `--fps`.
-const FRAMES_PER_SECOND: f64 = 30.0;
 /// Sine of the angle between `--look` and `--up` below which they count as parallel.
 const PARALLEL: f64 = 1e-9;
 
@@ -24,9 +25,11 @@ const PARALLEL: f64 = 1e-9;
 #[derive(Args, Clone, Debug, PartialEq)]
 #[command(allow_negative_numbers = true)]
 pub struct RenderOptions {
-    /// File to write: .png for a picture, .exr for its light, .mp4 for a film; with --display, a folder.
+    /// File to write: .png for a picture, .exr for its light, .mp4 (.mov, .mkv) for a film; film.####.png for numbered
+    /// pictures; with --display, a folder.
     ///
-    /// Light is linear sRGB in cd/m², before exposure, tone and gamut, as 32-bit floats.
+    /// Light is linear sRGB in cd/m², before exposure, tone and gamut, as 32-bit floats. Numbered pictures have a place
+    /// for the number in their name, #### or %04d, and may be .png or .exr; each is exposed by itself.
     #[arg(long, value_name = "FILE", value_parser = values::output())]
     pub out: Output,
     /// Options of the world.
@@ -37,19 +40,14 @@ pub struct RenderOptions {
     pub viewpoint: Viewpoint,
     /// Draw the view of a recorded rider.
     ///
-    /// World, vehicle and observer come from the recording. --scene is needed only if the file of its scene has
-    /// moved.
+    /// World, vehicle and observer come from the recording; --look is a direction in the rider's own axes then: right,
+    /// up, backward. --scene is needed only if the file of its scene has moved.
     #[arg(long, value_name = "R.mcap", value_parser = values::recording(), help_heading = "Observer")]
-    #[arg(conflicts_with_all = ["speed_of_light", "position", "look", "up", "celerity", "beta"])]
+    #[arg(conflicts_with_all = ["speed_of_light", "position", "celerity", "beta"])]
     pub replay: Option<PathBuf>,
-    /// Length of a film, seconds of the observer's own time [default: 10, or the whole recording].
-    ///
-    /// For a picture of a recording, the moment to draw [default: its end].
-    #[arg(long, value_name = "N", value_parser = values::positive, help_heading = "Film")]
-    pub seconds: Option<f64>,
-    /// Pictures per second of a film [default: 30].
-    #[arg(long, value_name = "N", value_parser = values::within(0.1, 1000.0), help_heading = "Film")]
-    fps: Option<f64>,
+    /// Options of films and numbered pictures.
+    #[command(flatten)]
+    pub film: FilmOptions,
     /// Look at the photo-surface from outside: a camera at rest in the observer's frame, at X,Y,Z metres from the eye.
     ///
     /// What is drawn is the surface of all apparent positions, with the observer as a ball with its axes (right red, up
@@ -68,6 +66,9 @@ pub struct RenderOptions {
     /// Options of the picture.
     #[command(flatten)]
     pub picture: PictureOptions,
+    /// Options of the projection and of the eyes.
+    #[command(flatten)]
+    pub projection: ProjectionOptions,
     /// Options of the rays.
     #[command(flatten)]
     pub rays: RayOptions,
@@ -96,9 +97,12 @@ pub struct Viewpoint {
 }
 
 impl Viewpoint {
-    /// Direction that is up in the picture. That of the start belongs to the start's direction of view.
+    /// Direction that is up in the picture. That of the start belongs to the start's direction of view. Straight above,
+    /// what is ahead at the start is below in the picture, as on a dome; straight below, it is above.
     pub fn up(&self, start: &Start) -> DVec3 {
-        self.up.unwrap_or(if self.look.is_none() { start.up } else { DVec3::Y })
+        let Some(look) = self.look else { return self.up.unwrap_or(start.up) };
+        let steep = look.cross(DVec3::Y).length() < PARALLEL;
+        self.up.unwrap_or(if steep { start.look.reject_from(DVec3::Y) * -look.y.signum() } else { DVec3::Y })
     }
 
     /// Velocity of the observer, world axes.
@@ -108,9 +112,16 @@ impl Viewpoint {
 }
 
 impl RenderOptions {
-    /// Pictures per second of the film.
-    pub fn frames_per_second(&self) -> f64 {
-        self.fps.unwrap_or(FRAMES_PER_SECOND)
+    /// Sets what follows from other options. `sized`: the command line has a size.
+    pub(super) fn complete(&mut self, sized: bool) {
+        if !sized {
+            self.picture.size = self.projection.projection.usual_size();
+        }
+    }
+
+    /// True if the pictures are written as light.
+    pub fn writes_light(&self) -> bool {
+        matches!(self.out, Output::Light(_) | Output::Sequence(_, FrameFile::Exr))
     }
 
     /// Checks rules between the options.
@@ -126,19 +137,29 @@ impl RenderOptions {
         if self.room.display.is_some() && self.replay.is_some() {
             return Err("--replay is not drawn for --display yet; leave one out".to_owned());
         }
-        if !matches!(self.out, Output::Film(_)) {
-            if self.fps.is_some() {
-                return Err("--fps is for films: name an .mp4 file with --out, or leave --fps out".to_owned());
-            }
-            if self.seconds.is_some() && self.replay.is_none() {
-                return Err("--seconds is for films and recordings: name an .mp4 file with --out, or a recording \
-                     with --replay, or leave --seconds out"
-                    .to_owned());
-            }
+        self.film.check(&self.out, self.replay.is_some())?;
+        if self.room.display.is_none() {
+            self.projection.check(self.picture.size)?;
+        } else if self.projection != ProjectionOptions::default() {
+            return Err(
+                "--projection and --stereo are not for --display, whose screens and eyes the display describes; \
+                 leave one out"
+                    .to_owned(),
+            );
+        }
+        if self.outside.is_some() && self.projection != ProjectionOptions::default() {
+            return Err(
+                "--outside makes one flat picture; leave --projection and --stereo, or --outside out".to_owned()
+            );
+        }
+        if self.projection.stereo == Some(StereoLayout::Anaglyph) && self.writes_light() {
+            return Err("--stereo anaglyph is a picture for a screen, and .exr files hold light; choose another \
+                 arrangement, or .png"
+                .to_owned());
         }
         let Viewpoint { look, up, .. } = self.viewpoint;
-        if look.is_some_and(|look| look.cross(up.unwrap_or(DVec3::Y)).length() < PARALLEL) {
-            return Err("--up must not be parallel to --look; give another --up (its default is 0,1,0)".to_owned());
+        if look.zip(up).is_some_and(|(look, up)| look.cross(up).length() < PARALLEL) {
+            return Err("--up must not be parallel to --look; give another --up, or leave it out".to_owned());
         }
         if let Some(option) = self.rays.given().filter(|_| self.dial.renderer != RendererName::Raytrace) {
             return Err(format!("{option} is for --renderer raytrace; leave one out or add the other"));

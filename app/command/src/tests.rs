@@ -165,8 +165,8 @@ fn the_ending_of_the_file_says_what_is_drawn() {
     assert_eq!(options.picture.exposure, Exposure::WHITE);
     let Ok(Command::Render(options)) = parse("render --out b/c.MP4 --seconds 3 --fps 25") else { panic!() };
     assert_eq!(options.out, Output::Film("b/c.MP4".into()));
-    assert_eq!((options.seconds, options.frames_per_second()), (Some(3.0), 25.0));
-    assert_eq!(render("--replay r.mcap --seconds 3").seconds, Some(3.0));
+    assert_eq!((options.film.seconds, options.film.frames_per_second()), (Some(3.0), 25.0));
+    assert_eq!(render("--replay r.mcap --seconds 3").film.seconds, Some(3.0));
 }
 
 #[test]

@@ -8,8 +8,10 @@ use std::str::FromStr;
 
 use super::frame_rate::FrameRate;
 use clap::builder::{PathBufValueParser, TypedValueParser};
+use filming::FrameFile;
 use glam::DVec3;
 use physics::{Beta, Celerity, CelerityError};
+use picture_files::SequenceName;
 use thiserror::Error;
 
 /// Reason why an option's text has no value.
@@ -83,12 +85,11 @@ const FARTHEST: f64 = 1e100;
 const MAXIMAL_SIZE: u32 = 16_384;
 
 /// Endings of files that are no folders, though this program does not write them: a name that has one is a mistake.
-const OTHER_FILES: [&str; 16] = [
-    "jpg", "jpeg", "bmp", "tif", "tiff", "gif", "webp", "hdr", "ppm", "tga", "avi", "mov", "mkv", "webm", "gltf", "glb",
-];
+const OTHER_FILES: [&str; 14] =
+    ["jpg", "jpeg", "bmp", "tif", "tiff", "gif", "webp", "hdr", "ppm", "tga", "avi", "webm", "gltf", "glb"];
 
 /// File endings that `--out` takes, for messages.
-pub(super) const ENDINGS: &str = ".png (a picture), .exr (a picture as light) or .mp4 (a film)";
+pub(super) const ENDINGS: &str = ".png (a picture), .exr (a picture as light), or .mp4, .mov or .mkv (a film)";
 
 /// Units in which a speed may be given, with their values in m/s.
 const SPEED_UNITS: [(&str, f64); 5] =
@@ -101,17 +102,20 @@ pub enum Output {
     Picture(PathBuf),
     /// A picture of light as OpenEXR.
     Light(PathBuf),
-    /// A film as MP4.
+    /// A film.
     Film(PathBuf),
+    /// Numbered pictures.
+    Sequence(SequenceName, FrameFile),
     /// A folder with a picture for every channel of a display.
     Folder(PathBuf),
 }
 
 impl Output {
-    /// Path of the file or folder.
-    pub fn path(&self) -> &Path {
+    /// Path of the file or folder; of numbered pictures the pattern.
+    pub fn path(&self) -> PathBuf {
         match self {
-            Self::Picture(path) | Self::Light(path) | Self::Film(path) | Self::Folder(path) => path,
+            Self::Picture(path) | Self::Light(path) | Self::Film(path) | Self::Folder(path) => path.clone(),
+            Self::Sequence(name, _) => name.pattern(),
         }
     }
 }
@@ -119,11 +123,16 @@ impl Output {
 impl TryFrom<PathBuf> for Output {
     type Error = ValueError;
     fn try_from(path: PathBuf) -> Result<Self, ValueError> {
-        if has_extension(&path, &["png"]) {
+        let numbered = SequenceName::of(&path);
+        if let (Some(name), true) = (&numbered, has_extension(&path, &["png"])) {
+            Ok(Self::Sequence(name.clone(), FrameFile::Png))
+        } else if let (Some(name), true) = (&numbered, has_extension(&path, &["exr"])) {
+            Ok(Self::Sequence(name.clone(), FrameFile::Exr))
+        } else if has_extension(&path, &["png"]) {
             Ok(Self::Picture(path))
         } else if has_extension(&path, &["exr"]) {
             Ok(Self::Light(path))
-        } else if has_extension(&path, &["mp4"]) {
+        } else if has_extension(&path, &["mp4", "mov", "mkv"]) {
             Ok(Self::Film(path))
         } else if path.is_dir() || !has_extension(&path, &OTHER_FILES) {
             // A folder's name may have a dot in it. Whether a folder is wanted is known when all options are.

@@ -246,7 +246,7 @@ mod tests {
     use super::*;
     use egui::epaint::Mesh;
     use egui::{Color32, ColorImage, Pos2, Vec2};
-    use render::picture::Sheet;
+    use studio::Sheet;
 
     const SIZE: [u32; 2] = [16, 8];
     const PIXELS_PER_POINT: f32 = 2.0;

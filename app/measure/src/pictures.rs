@@ -21,10 +21,10 @@ use super::row::Row;
 use super::{direction, views};
 use crate::error::MeasureError;
 use render::choice::Choice;
-use render::picture::{Shown, Studio};
 use render::target::{Format, Radiance};
 use render::{Gpu, GpuError, Pending, SceneRenderer};
 use scene::Scene;
+use studio::{Shown, Studio};
 use trace::RayTracer;
 use view::{Dial, Occasion, Shot};
 

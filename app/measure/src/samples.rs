@@ -9,9 +9,9 @@ use super::reference::Reference;
 use super::table::{Line, Markdown};
 use crate::error::MeasureError;
 use render::choice::Choice;
-use render::picture::Studio;
 use render::target::Radiance;
 use render::{GpuError, SceneRenderer};
+use studio::Studio;
 use trace::RayTracer;
 use view::{Dial, Occasion};
 

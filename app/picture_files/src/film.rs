@@ -4,7 +4,9 @@
 //! A separate thread writes, so that encoding a frame and drawing the next overlap. A short channel between the
 //! threads bounds the memory.
 
-use super::files::{WriteError, save, temporary};
+use super::codec::{self, Codec};
+use super::files::{WriteError, save, temporary, whole};
+use super::spherical::{self, SphericalTags};
 use crossbeam_channel::{Sender, bounded};
 use image::RgbaImage;
 use std::io::{self, Read, Write};
@@ -57,6 +59,15 @@ pub enum FilmError {
     },
 }
 
+/// Form of a film's file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FilmForm {
+    /// Codec of its pictures.
+    pub codec: Codec,
+    /// What players are told of its projection; `None` for a flat film of one eye.
+    pub tags: Option<SphericalTags>,
+}
+
 /// Result of writing a film.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Written {
@@ -78,8 +89,8 @@ impl Film {
     /// # Errors
     /// [`FilmError::Start`] if ffmpeg is there and cannot be started, [`FilmError::Write`] if there is none and no
     /// folder for pictures can be created.
-    pub fn create(path: &Path, size: [u32; 2], frames_per_second: f64) -> Result<Self, FilmError> {
-        let mut sink = Sink::open(path, size, frames_per_second)?;
+    pub fn create(path: &Path, size: [u32; 2], frames_per_second: f64, form: FilmForm) -> Result<Self, FilmError> {
+        let mut sink = Sink::open(path, size, frames_per_second, form)?;
         let (frames, queue) = bounded::<RgbaImage>(WAITING_FRAMES);
         let writer = std::thread::Builder::new()
             .name("film".to_owned())
@@ -115,8 +126,8 @@ enum Sink {
 }
 
 impl Sink {
-    fn open(path: &Path, size: [u32; 2], frames_per_second: f64) -> Result<Self, FilmError> {
-        match FilmEncoder::start(path, size, frames_per_second) {
+    fn open(path: &Path, size: [u32; 2], frames_per_second: f64, form: FilmForm) -> Result<Self, FilmError> {
+        match FilmEncoder::start(path, size, frames_per_second, form) {
             Ok(encoder) => Ok(Self::Encoder(encoder)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 let folder = path.with_extension("frames");
@@ -155,6 +166,17 @@ impl Sink {
     }
 }
 
+/// Arguments of ffmpeg for the pixels: even sides, which players need where they share colours among four pixels, and
+/// the colours of high-definition video, by name, so that every player shows the same.
+fn pixels(codec: Codec) -> Vec<&'static str> {
+    if codec.keeps_rgb() {
+        return Vec::new();
+    }
+    let filter = "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv";
+    let named = ["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"];
+    [["-vf", filter].as_slice(), &named].concat()
+}
+
 /// Removes the numbered pictures of an earlier film, which a shorter one would end with.
 fn remove_pictures(folder: &Path) -> io::Result<()> {
     for entry in std::fs::read_dir(folder)? {
@@ -176,10 +198,11 @@ struct FilmEncoder {
     input: Option<ChildStdin>,
     path: PathBuf,
     temporary: PathBuf,
+    tags: Option<SphericalTags>,
 }
 
 impl FilmEncoder {
-    fn start(path: &Path, size: [u32; 2], frames_per_second: f64) -> io::Result<Self> {
+    fn start(path: &Path, size: [u32; 2], frames_per_second: f64, form: FilmForm) -> io::Result<Self> {
         let temporary = temporary(path);
         let mut encoder = Command::new("ffmpeg");
         // The encoder gets its own process group, so that Ctrl-C on the terminal does not end it before it has
@@ -190,16 +213,16 @@ impl FilmEncoder {
             .args(["-y", "-loglevel", "error", "-f", "rawvideo", "-pixel_format", "rgba"])
             .args(["-video_size", &format!("{}x{}", size[0], size[1])])
             .args(["-framerate", &frames_per_second.to_string(), "-i", "-"])
-            // Common players need 4:2:0 colour, which needs even sides.
-            .args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-preset", "veryfast"])
-            .args(["-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart"])
+            .args(pixels(form.codec))
+            .args(form.codec.arguments(false))
+            .args(if codec::is_indexed(path) { ["-movflags", "+faststart"].as_slice() } else { &[] })
             .arg(&temporary)
             .stdin(Stdio::piped())
             .stdout(Stdio::null())
             .stderr(Stdio::piped())
             .spawn()?;
         let input = child.stdin.take();
-        Ok(Self { child, input, path: path.to_owned(), temporary })
+        Ok(Self { child, input, path: path.to_owned(), temporary, tags: form.tags })
     }
 
     fn write(&mut self, frame: &RgbaImage) -> Result<(), FilmError> {
@@ -225,6 +248,11 @@ impl FilmEncoder {
 
     fn finish(mut self) -> Result<Written, FilmError> {
         self.end()?;
+        if let Some(tags) = self.tags {
+            // The tagged film takes the place of the one without.
+            let tagged = whole(&self.temporary, |tagged| spherical::tag(&self.temporary, tagged, &tags));
+            tagged.map_err(|error| FilmError::Write { path: self.path.clone(), reason: error.to_string() })?;
+        }
         match std::fs::rename(&self.temporary, &self.path) {
             Ok(()) => Ok(Written::Film(self.path.clone())),
             Err(error) => Err(FilmError::Write { path: self.path.clone(), reason: error.to_string() }),

@@ -125,7 +125,19 @@ impl Gpu {
     /// # Errors
     /// [`GpuError::Lost`] if the device went away meanwhile.
     pub fn wait(&self) -> Result<(), GpuError> {
-        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| GpuError::Lost(error.to_string()))?;
+        self.poll(wgpu::PollType::wait_indefinitely())
+    }
+
+    /// Waits until a submission is done, and those before it.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away meanwhile.
+    pub fn wait_for(&self, submission: wgpu::SubmissionIndex) -> Result<(), GpuError> {
+        self.poll(wgpu::PollType::Wait { submission_index: Some(submission), timeout: None })
+    }
+
+    fn poll(&self, until: wgpu::PollType) -> Result<(), GpuError> {
+        self.device.poll(until).map_err(|error| GpuError::Lost(error.to_string()))?;
         self.lost()
     }
 }

@@ -16,7 +16,6 @@ mod method;
 mod moving_objects;
 mod outside;
 mod pending;
-pub mod picture;
 mod polygon;
 mod scene_renderer;
 mod stats;

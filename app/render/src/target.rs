@@ -24,7 +24,9 @@ impl Radiance {
     /// Makes the textures.
     pub fn new(gpu: &Gpu, size: [u32; 2], format: Format) -> Self {
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
-        let attachment = |label, format, samples| texture(gpu, label, size, format, samples, usage);
+        // What has one sample a pixel may be copied into a larger picture.
+        let copied = |samples| if samples > 1 { usage } else { usage | wgpu::TextureUsages::COPY_SRC };
+        let attachment = |label, format, samples| texture(gpu, label, size, format, samples, copied(samples));
         Self {
             size,
             format,

@@ -68,6 +68,6 @@ pub use projector::Projector;
 pub use reflection::Reflection;
 pub use surface::{CylinderSurface, FlatSurface, MeshSurface, ScreenSurface, SphereSurface, SurfaceHit};
 pub use turning::room_from_turned;
-pub use viewer::{EyeSide, Viewer};
+pub use viewer::{EYE_SEPARATION_M, EyeSide, Viewer};
 pub use warp::{CornerWarp, MeasuredWarp, NotConvex, Warp};
 pub use window::{Combine, Monitor, WindowPlace};

@@ -5,38 +5,61 @@ use crate::error::Error;
 use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::interrupt::{interrupted, interruption};
-use crate::session::reel::Moment;
-use command::{DialOptions, PictureOptions, RayOptions, map_scale_of_stills};
+use crate::session::reel::{Moment, Told};
+use command::{DialOptions, PictureOptions, map_scale_of_stills};
+use filming::{
+    DueFrame, FilmView, FrameFile, FramePictures, MakerOptions, Onlooker, PictureMaker, PictureSink, Shooting,
+    StereoLayout,
+};
 use image::RgbaImage;
-use picture_files::exr;
+use indicatif::ProgressBar;
 use picture_files::files::save;
-use picture_files::film::{Film, Written};
+use picture_files::film::{FilmForm, Written};
+use picture_files::{Codec, SequenceName, exr};
 use render::choice::Choice;
-use render::picture::{Studio, largest_side};
-use render::{CutStats, Gpu, Pending, SceneRenderer};
+use render::{CutStats, Gpu, SceneRenderer};
 use scene::Scene;
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use trace::{CameraLens, Optics, RayTracer, Traced};
-use view::{Dial, Occasion, RendererName, Shot};
+use studio::{Studio, largest_side};
+use trace::{Optics, RayTracer};
+use view::{Dial, Occasion, Projection, RendererName};
+use walls::StereoEyes;
 
 /// Dial of pictures that are kept.
 pub fn dial_of_stills(dial: &DialOptions, picture: &PictureOptions) -> Dial {
     dial.dial(Occasion::Still, map_scale_of_stills(picture.samples))
 }
 
-/// Maker of the pictures.
-enum Maker {
-    Drawn(Box<SceneRenderer>),
-    Traced(Box<RayTracer>),
+/// Projection, eyes and lens of a camera; those of a flat picture of one eye through a pinhole, unless set.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Equipment {
+    /// Map from places of the picture to directions.
+    pub projection: Projection,
+    /// Eyes of a stereo picture, and the arrangement of their pictures.
+    pub stereo: Option<(StereoEyes, StereoLayout)>,
+    /// Lens and shutter, for rays.
+    pub optics: Optics,
+    /// Largest number of turns of a ray.
+    pub bounces: u32,
+}
+
+/// Place of a film's pictures.
+#[derive(Clone, Copy, Debug)]
+pub enum FilmOut<'a> {
+    /// A film of this codec, and its number of pictures per second.
+    Film(&'a Path, Codec, f64),
+    /// Numbered pictures.
+    Numbered(&'a SequenceName, FrameFile),
 }
 
 /// A scene, a device and targets, ready to take pictures.
 pub struct Cameraman<'gpu> {
     gpu: &'gpu Gpu,
-    maker: Maker,
-    studio: Studio,
-    options: PictureOptions,
+    maker: PictureMaker,
+    equipment: Equipment,
+    size: [u32; 2],
     dial: Dial,
     titles: Option<FilmTitles>,
 }
@@ -47,46 +70,42 @@ impl<'gpu> Cameraman<'gpu> {
     /// # Errors
     /// [`Error::TooLarge`] if the device cannot draw pictures of that size, [`Error::Refine`] if fixed edges cut the
     /// scene too finely.
-    pub fn new(gpu: &'gpu Gpu, scene: Scene, options: &PictureOptions, dial: Dial) -> Result<Self, Error> {
-        let limit = largest_side(gpu);
-        if options.size.iter().any(|side| *side > limit) {
-            return Err(Error::TooLarge { size: options.size, limit });
+    pub fn new(
+        gpu: &'gpu Gpu,
+        scene: Scene,
+        picture: &PictureOptions,
+        dial: Dial,
+        equipment: Equipment,
+    ) -> Result<Self, Error> {
+        let (limit, size) = (largest_side(gpu), picture.size);
+        if size.iter().any(|side| *side > limit) {
+            return Err(Error::TooLarge { size, limit });
         }
+        let Equipment { projection, stereo, optics, bounces } = equipment;
+        let stereo = stereo.map(|(eyes, _)| eyes);
+        let options = MakerOptions { size, samples: picture.samples, projection, stereo };
         if dial.renderer == RendererName::Raytrace {
             if interruption().load(Ordering::Relaxed) {
                 return Err(Error::Interrupted);
             }
             tell(format_args!("{}: traced ray by ray, on the CPU", scene.name));
             let spinner = progress::spinner("sorting triangles");
-            let tracer = RayTracer::new(scene, options.background, options.exact_light)?;
+            let tracer = RayTracer::new(scene, picture.background, picture.exact_light)?;
+            let tracer = tracer.with_optics(optics).with_bounces(bounces);
             spinner.finish_and_clear();
-            let studio = Studio::new(gpu, options.size, 1);
-            let maker = Maker::Traced(Box::new(tracer));
-            return Ok(Self { gpu, maker, studio, options: options.clone(), dial, titles: None });
+            let maker = PictureMaker::traced(gpu, tracer, options, interruption());
+            return Ok(Self { gpu, maker, equipment, size, dial, titles: None });
         }
         let spinner = progress::cutting(dial);
         let Choice { scene, dial, because } = Choice::of(scene, dial, Occasion::Still)?;
         spinner.finish_and_clear();
         tell(format_args!("{because}, on {}", gpu.description()));
         let spinner = progress::spinner("uploading");
-        let renderer = SceneRenderer::new(gpu, scene, Studio::format(gpu), options.background, dial, Occasion::Still)?;
-        let studio = Studio::new(gpu, options.size, options.samples);
+        let renderer = SceneRenderer::new(gpu, scene, Studio::format(gpu), picture.background, dial, Occasion::Still)?;
+        let maker = PictureMaker::drawn(gpu, renderer, options);
         gpu.wait()?;
         spinner.finish_and_clear();
-        let maker = Maker::Drawn(Box::new(renderer));
-        Ok(Self { gpu, maker, studio, options: options.clone(), dial, titles: None })
-    }
-
-    /// Adds a lens, a shutter and mirrors, if this cameraman traces rays. `speed_of_light`: metres per second.
-    #[must_use]
-    pub fn with_rays(mut self, rays: &RayOptions, speed_of_light: f64) -> Self {
-        if let Maker::Traced(tracer) = self.maker {
-            let lens = rays.aperture.zip(rays.focus).map(|(aperture_m, focus_m)| CameraLens { aperture_m, focus_m });
-            let optics = Optics { lens, exposure_m: rays.shutter.unwrap_or(0.0) * speed_of_light };
-            let tracer = tracer.with_optics(optics).with_bounces(rays.bounces.unwrap_or(0));
-            self.maker = Maker::Traced(Box::new(tracer));
-        }
-        self
+        Ok(Self { gpu, maker, equipment, size, dial, titles: None })
     }
 
     /// Writes over the pictures what their moments tell.
@@ -95,105 +114,168 @@ impl<'gpu> Cameraman<'gpu> {
         Self { titles: Some(titles), ..self }
     }
 
-    fn shot(&self, moment: &Moment) -> Shot {
-        let shot = moment.gaze.shot(moment.look.fov_deg, moment.look.effects);
+    fn view(&self, moment: &Moment, elapsed_s: Option<f64>) -> FilmView {
+        let Moment { gaze, look, .. } = *moment;
         // Rays all end at the eye.
-        let outside = moment.look.outside.filter(|_| matches!(self.maker, Maker::Drawn(_)));
-        outside.map_or(shot, |outside| shot.from_outside(&outside))
+        let outside = look.outside.filter(|_| self.maker.renderer().is_some());
+        let (effects, fov_deg, development) = (look.effects, look.fov_deg, look.development);
+        FilmView { gaze, effects, fov_deg, development, outside, elapsed_s }
     }
 
-    /// Takes one picture and writes it as PNG.
+    fn layout(&self) -> Option<StereoLayout> {
+        self.equipment.stereo.map(|(_, layout)| layout)
+    }
+
+    /// Takes the picture of a moment, and writes it as PNG or its light as OpenEXR.
     ///
     /// # Errors
     /// A lost device, a place that cannot be written, or [`Error::Interrupted`].
-    pub fn still(&mut self, moment: &Moment, path: &Path) -> Result<(), Error> {
-        let pending = self.submit(moment)?;
-        let picture = self.take(moment, pending, None)?;
-        self.tell_of_quality(moment);
-        save(&picture, path)?;
-        tell(format_args!("wrote {}", path.display()));
-        Ok(())
-    }
-
-    /// Takes one picture and writes its light as OpenEXR.
-    ///
-    /// # Errors
-    /// A lost device, or a place that cannot be written.
-    pub fn light(&mut self, moment: &Moment, path: &Path) -> Result<(), Error> {
-        let pending = self.submit(moment)?;
-        let shot = self.shot(moment);
-        let light = match &mut self.maker {
-            Maker::Drawn(renderer) => self.studio.expose(self.gpu, renderer, &shot, pending)?,
-            Maker::Traced(tracer) => traced(tracer, &shot, &self.options)?.image(),
+    pub fn still(&mut self, moment: &Moment, path: &Path, kind: FrameFile) -> Result<(), Error> {
+        let view = self.view(moment, None);
+        let pending = self.maker.submit(self.gpu, &view)?;
+        let bar = tile_bar(self.maker.tiles());
+        let tile_done = || bar.inc(1);
+        let layout = self.layout();
+        let (pictures, interrupted) = match kind {
+            FrameFile::Png => {
+                let taking = self.maker.begin(self.gpu, &view, pending, &tile_done)?;
+                let interrupted = taking.interrupted;
+                let mut pictures = taking.finish(self.gpu)?;
+                if let (Some(titles), Some(told)) = (&mut self.titles, &moment.told) {
+                    pictures.iter_mut().try_for_each(|picture| titles.write(self.gpu, told, picture))?;
+                }
+                (FramePictures::Developed(pictures), interrupted)
+            }
+            FrameFile::Exr => {
+                let (lights, interrupted) = self.maker.light(self.gpu, &view, pending, &tile_done)?;
+                (FramePictures::Light(lights), interrupted)
+            }
         };
-        self.tell_of_quality(moment);
-        exr::save(&light, path)?;
-        tell(format_args!("wrote {}", path.display()));
+        bar.finish_and_clear();
+        if let Some((done, tiles)) = interrupted {
+            tell(format_args!("interrupted: {done} of {tiles} tiles are done, the others are black"));
+        }
+        self.tell_of_quality(&view);
+        let paths = filming::eye_paths(path, layout);
+        match pictures.arranged(layout) {
+            FramePictures::Developed(pictures) => {
+                for (picture, path) in pictures.iter().zip(&paths) {
+                    save(picture, path)?;
+                }
+            }
+            FramePictures::Light(lights) => {
+                for (light, path) in lights.iter().zip(&paths) {
+                    exr::save(light, path)?;
+                }
+            }
+        }
+        paths.iter().for_each(|path| tell(format_args!("wrote {}", path.display())));
         Ok(())
     }
 
-    /// Films one frame per moment. Ctrl-C ends the film early and keeps what there is.
+    /// Films one picture per moment, each with its number. Ctrl-C ends the film early and keeps what there is.
     ///
     /// # Errors
     /// A lost device, an encoder that fails, or a place that cannot be written.
     pub fn film(
         &mut self,
-        mut moments: impl Iterator<Item = Result<Moment, Error>>,
+        moments: impl Iterator<Item = Result<(u64, Moment), Error>>,
         count: u64,
-        frames_per_second: f64,
-        path: &Path,
+        out: FilmOut<'_>,
     ) -> Result<(), Error> {
-        let traces = matches!(self.maker, Maker::Traced(_));
+        let traces = self.maker.renderer().is_none();
         let stop = if traces { interruption() } else { interrupted() };
         if traces && stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted);
         }
-        let film = Film::create(path, self.options.size, frames_per_second)?;
-        let bar = progress::bar(path.display().to_string(), count);
-
-        // The photo-surface of the next frame is computed while this one is drawn.
+        let (sink, kind, name) = self.sink(out)?;
+        let mut watch = FilmWatch {
+            gpu: self.gpu,
+            titles: self.titles.take(),
+            bar: progress::bar(name.clone(), count),
+            tiles: tile_bar(self.maker.tiles()),
+            lines: !std::io::IsTerminal::is_terminal(&std::io::stderr()),
+            done: 0,
+            count,
+        };
+        // Numbered pictures are exposed by themselves, so that each is the same whoever draws it.
+        let alone = matches!(out, FilmOut::Numbered(..));
         let mut before = None;
-        let mut next = self.begin(moments.next().transpose()?)?;
-        let mut done = 0;
-        while let Some((moment, pending)) = next {
-            next = self.begin(if stop.load(Ordering::Relaxed) { None } else { moments.next().transpose()? })?;
-            let elapsed_s = before.replace(moment.own_s).map(|before| moment.own_s - before);
-            let picture = match self.take(&moment, pending, elapsed_s) {
-                Err(Error::Interrupted) => break,
-                picture => picture?,
-            };
-            // A picture that was interrupted may be half black.
-            if (traces && stop.load(Ordering::Relaxed)) || !film.add(picture) {
-                break;
+        let frames = moments.map(|moment| {
+            let (number, mut moment) = moment?;
+            let elapsed_s = before.replace(moment.own_s).map(|before| moment.own_s - before).filter(|_| !alone);
+            let told = moment.told.take();
+            Ok::<_, Error>((number, elapsed_s, moment, told))
+        });
+        let drawn = self.maker.renderer().is_some();
+        let frames = frames.map(|frame| {
+            let (number, elapsed_s, moment, told) = frame?;
+            let Moment { gaze, look, .. } = moment;
+            let outside = look.outside.filter(|_| drawn);
+            let (effects, fov_deg, development) = (look.effects, look.fov_deg, look.development);
+            let view = FilmView { gaze, effects, fov_deg, development, outside, elapsed_s };
+            Ok(DueFrame { number, view, told })
+        });
+        let layout = self.layout();
+        let mut shooting = Shooting { gpu: self.gpu, maker: &mut self.maker, layout, kind, sink: &sink, stop: &stop };
+        let outcome = shooting.shoot(frames, &mut watch);
+        watch.bar.finish_and_clear();
+        watch.tiles.finish_and_clear();
+        self.titles = watch.titles.take();
+        let done = match outcome {
+            Err(Error::Interrupted) if traces => {
+                // The encoder of a film without pictures has nothing to tell but a complaint.
+                let _ = sink.finish();
+                return Err(Error::Interrupted);
             }
-            done += 1;
-            bar.inc(1);
-        }
-        bar.finish_and_clear();
-        if traces && done == 0 && stop.load(Ordering::Relaxed) {
-            // The encoder of a film without pictures has nothing to tell but a complaint.
-            let _ = film.finish();
+            outcome => outcome?,
+        };
+        let was_stopped = stop.load(Ordering::Relaxed);
+        if done == 0 && was_stopped && traces {
+            let _ = sink.finish();
             return Err(Error::Interrupted);
         }
-        if done < count && stop.load(Ordering::Relaxed) {
+        let written = sink.finish()?;
+        if done < count && was_stopped {
             tell(format_args!("interrupted: the film ends after {done} of {count} pictures"));
         }
-        match film.finish()? {
-            Written::Film(path) => tell(format_args!("wrote {}", path.display())),
-            Written::Pictures(folder) => tell(format_args!(
-                "wrote numbered pictures into {}, because ffmpeg is not installed; install it to get a film",
-                folder.display()
-            )),
+        for written in written {
+            match written {
+                Written::Film(path) => tell(format_args!("wrote {}", path.display())),
+                Written::Pictures(folder) => tell(format_args!(
+                    "wrote numbered pictures into {}, because ffmpeg is not installed; install it to get a film",
+                    folder.display()
+                )),
+            }
         }
-        Ok(())
+        if alone {
+            tell(format_args!("wrote {done} pictures as {name}"));
+        }
+        if done < count && !was_stopped { Err(Error::CutShort { done, count }) } else { Ok(()) }
+    }
+
+    /// Place of the pictures, their kind, and its name.
+    fn sink(&self, out: FilmOut<'_>) -> Result<(PictureSink, FrameFile, String), Error> {
+        let layout = self.layout();
+        match out {
+            FilmOut::Film(path, codec, frames_per_second) => {
+                let size = layout.map_or(self.size, |layout| layout.size(self.size));
+                let tags = filming::film_tags(self.equipment.projection, layout);
+                let paths = filming::eye_paths(path, layout);
+                let sink = PictureSink::films(&paths, size, frames_per_second, FilmForm { codec, tags })?;
+                Ok((sink, FrameFile::Png, path.display().to_string()))
+            }
+            FilmOut::Numbered(name, kind) => {
+                let sink = PictureSink::numbered(filming::eye_names(name, layout));
+                Ok((sink, kind, name.pattern().display().to_string()))
+            }
+        }
     }
 
     /// Says how the picture was cut, if its map could not be as fine as was wanted, and if it is more than a pixel
     /// off.
-    fn tell_of_quality(&self, moment: &Moment) {
-        let Maker::Drawn(renderer) = &self.maker else { return };
-        let shot = self.shot(moment);
-        let certainty = renderer.certainty(&shot, self.options.size);
+    fn tell_of_quality(&self, view: &FilmView) {
+        let (Some(renderer), Some(certainty)) = (self.maker.renderer(), self.maker.certainty(view)) else { return };
         if certainty.error_px() > 1.0 {
             tell(certainty.sentence());
         }
@@ -216,52 +298,43 @@ impl<'gpu> Cameraman<'gpu> {
             ));
         }
     }
+}
 
-    /// Begins the next picture of a film.
-    fn begin(&mut self, next: Option<Moment>) -> Result<Option<(Moment, Pending)>, Error> {
-        next.map(|moment| {
-            let pending = self.submit(&moment)?;
-            Ok((moment, pending))
-        })
-        .transpose()
-    }
+/// Progress of a film, and what is written over its pictures.
+struct FilmWatch<'gpu> {
+    gpu: &'gpu Gpu,
+    titles: Option<FilmTitles>,
+    bar: ProgressBar,
+    tiles: ProgressBar,
+    /// True if a line tells of each picture, where no bar can be drawn.
+    lines: bool,
+    done: u64,
+    count: u64,
+}
 
-    fn submit(&mut self, moment: &Moment) -> Result<Pending, Error> {
-        Ok(match &mut self.maker {
-            Maker::Drawn(renderer) => renderer.submit(self.gpu, &moment.gaze.observer, moment.look.effects)?,
-            Maker::Traced(_) => Pending::default(),
-        })
-    }
-
-    fn take(&mut self, moment: &Moment, pending: Pending, elapsed_s: Option<f64>) -> Result<RgbaImage, Error> {
-        let shot = self.shot(moment);
-        let development = moment.look.development;
-        let mut picture = match &mut self.maker {
-            Maker::Drawn(renderer) => {
-                self.studio.photograph(self.gpu, renderer, &shot, pending, &development, elapsed_s)?
-            }
-            Maker::Traced(tracer) => {
-                let traced = traced(tracer, &shot, &self.options)?;
-                self.studio.develop(self.gpu, &traced.texels(), traced.stored, &development, elapsed_s)?
-            }
-        };
-        if let (Some(titles), Some(told)) = (&mut self.titles, &moment.told) {
-            titles.write(self.gpu, told, &mut picture)?;
+impl Onlooker<Option<Arc<Told>>, Error> for FilmWatch<'_> {
+    fn write_over(&mut self, told: &Option<Arc<Told>>, pictures: &mut [RgbaImage]) -> Result<(), Error> {
+        if let (Some(titles), Some(told)) = (&mut self.titles, told) {
+            pictures.iter_mut().try_for_each(|picture| titles.write(self.gpu, told, picture))?;
         }
-        Ok(picture)
+        Ok(())
+    }
+
+    fn tile_done(&self) {
+        self.tiles.inc(1);
+    }
+
+    fn picture_done(&mut self, number: u64) {
+        self.done += 1;
+        self.bar.inc(1);
+        self.tiles.set_position(0);
+        if self.lines {
+            tell(format_args!("picture {number}: {} of {}", self.done, self.count));
+        }
     }
 }
 
-/// Traces a picture, and says how much of it is finished if it was interrupted.
-fn traced(tracer: &RayTracer, shot: &Shot, options: &PictureOptions) -> Result<Traced, Error> {
-    let bar = progress::bar("tracing rays", RayTracer::tile_count(options.size));
-    let traced = tracer.trace(shot, options.size, options.samples, &interruption(), || bar.inc(1));
-    bar.finish_and_clear();
-    if traced.done == 0 {
-        return Err(Error::Interrupted);
-    }
-    if traced.done < traced.tiles {
-        tell(format_args!("interrupted: {} of {} tiles are done, the others are black", traced.done, traced.tiles));
-    }
-    Ok(traced)
+/// Progress bar of a traced picture; hidden if none is traced.
+fn tile_bar(tiles: u64) -> ProgressBar {
+    if tiles > 0 { progress::bar("tracing rays", tiles) } else { ProgressBar::hidden() }
 }

@@ -5,9 +5,9 @@ use crate::session::tour_ride::TourMark;
 use cabin::Guide;
 use image::RgbaImage;
 use interface::{DrawnSheet, SHEET_FORMAT, SheetPointer};
-use render::picture::Sheet;
 use render::{Gpu, GpuError};
 use scene::Scene;
+use studio::Sheet;
 
 /// Height of a picture on which a point is a pixel.
 const HEIGHT: f32 = 720.0;

@@ -13,9 +13,9 @@ use measure::views::{self, FOV_DEGREES, Views};
 use measure::{OF_RIDES, OF_STILLS, Row, precision, samples, shift_table, steps};
 use presentation::Presentation;
 use render::Gpu;
-use render::picture::largest_side;
 use ride::LightSpeed;
 use scene::Start;
+use studio::largest_side;
 use trace::RayTracer;
 use view::Gaze;
 

@@ -3,20 +3,25 @@
 //! A film without a recording shows what an inertial observer sees: the eye moves on a straight worldline, and the
 //! frames are taken at equal steps of its proper time. A recorded ride is seen with the rider's eyes.
 
-use crate::commands::cameraman::{Cameraman, dial_of_stills};
+use crate::commands::cameraman::{Cameraman, Equipment, FilmOut, dial_of_stills};
 use crate::commands::render_room;
 use crate::error::Error;
 use crate::output::say::tell;
 use crate::session::interrupt::interrupted;
 use crate::session::reel::{self, Look, Moment, Ridden};
 use crate::session::scenes::{self, World};
-use command::{Output, RenderOptions, Viewpoint};
+use command::{Output, PartChoice, RenderOptions, Viewpoint};
+use filming::FrameFile;
+use glam::{DQuat, DVec3};
 use physics::{Event, Observer};
 use picture_files::files::writable;
+use picture_files::{Codec, FarmPart, FrameNumbers, is_whole};
 use render::Gpu;
 use scene::Start;
 use std::path::Path;
+use trace::{CameraLens, Optics};
 use view::{Camera, Gaze, RendererName};
+use walls::StereoEyes;
 
 /// Length of a film without `--seconds`, seconds of proper time.
 const FILM_SECONDS: f64 = 10.0;
@@ -31,57 +36,175 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     if options.dial.renderer == RendererName::Raytrace {
         interrupted();
     }
+    if !matches!(options.out, Output::Folder(_)) {
+        writable(&options.out.path())?;
+    }
+    let part = part(options)?;
     let gpu = Gpu::new()?;
     if let (Some(display), Output::Folder(folder)) = (&options.room.display, &options.out) {
         return render_room::render(options, &gpu, display, folder);
     }
-    writable(options.out.path())?;
     if let Some(recording) = &options.replay {
-        return recorded_ride(options, &gpu, recording);
+        return recorded_ride(options, &gpu, recording, part);
     }
     let World { scene, speed_of_light_m_s: speed_of_light } = scenes::load(&options.world)?;
     let start = scene.start;
-    let camera = Cameraman::new(&gpu, scene, &options.picture, dial_of_stills(&options.dial, &options.picture))?;
-    let mut camera = camera.with_rays(&options.rays, speed_of_light);
     let look = Look::of(&options.picture.presentation(&start), options.outside);
-    let moment = |own_s: f64| {
+    let moment = |number: u64| {
+        let own_s = number as f64 / options.film.frames_per_second();
         let gaze = inertial(&options.viewpoint, start, own_s * speed_of_light);
         Moment { gaze, own_s, look, told: None }
     };
+    let first = moment(0);
+    let due = match &options.film.frames {
+        Some(numbers) => numbers.clone(),
+        None => FrameNumbers::first(options.film.count(options.film.seconds.unwrap_or(FILM_SECONDS))),
+    };
+    let due = Due::of(options, &due, part);
+    if due.is_done(options) {
+        return Ok(());
+    }
+    let dial = dial_of_stills(&options.dial, &options.picture);
+    let equipment = equipment(options, speed_of_light, upright(&first.gaze));
+    let mut camera = Cameraman::new(&gpu, scene, &options.picture, dial, equipment)?;
     match &options.out {
-        Output::Picture(path) => camera.still(&moment(0.0), path),
-        Output::Light(path) => camera.light(&moment(0.0), path),
+        Output::Picture(path) => camera.still(&first, path, FrameFile::Png),
+        Output::Light(path) => camera.still(&first, path, FrameFile::Exr),
         Output::Folder(path) => Ok(writable(path)?),
-        Output::Film(path) => {
-            let rate = options.frames_per_second();
-            let count = (options.seconds.unwrap_or(FILM_SECONDS) * rate).round().max(1.0);
-            camera.film((0..count as u64).map(|frame| Ok(moment(frame as f64 / rate))), count as u64, rate, path)
+        out @ (Output::Film(_) | Output::Sequence(..)) => {
+            let moments = due.numbers.iter().map(|number| Ok((*number, moment(*number))));
+            camera.film(moments, due.numbers.len() as u64, film_out(options, out))
         }
     }
 }
 
 /// Draws the picture or film as a recorded rider saw it.
-fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path) -> Result<(), Error> {
-    let rate = options.frames_per_second();
+fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path, part: FarmPart) -> Result<(), Error> {
+    let rate = options.film.frames_per_second();
     let shown = |start: &Start| (options.picture.presentation(start), options.picture.is_given);
-    let ridden = reel::reel(recording, &options.world, (rate, options.seconds), shown)?;
+    // A film of no length has its first picture.
+    let seconds = options.film.seconds.map(|seconds| if seconds > 0.0 { seconds } else { 0.5 / rate });
+    let ridden = reel::reel(recording, &options.world, (rate, seconds), shown)?;
     let Ridden { scene, speed_of_light, reel } = ridden;
-    let camera = Cameraman::new(gpu, scene, &options.picture, dial_of_stills(&options.dial, &options.picture))?;
-    let mut camera = camera.with_rays(&options.rays, speed_of_light);
+    let turn = rider_look(&options.viewpoint);
     let seen = |mut moment: Moment| {
         moment.look.outside = options.outside.or(moment.look.outside);
+        moment.gaze.observer_from_eye *= turn;
         moment
     };
+    let count = reel.len();
+    let due = match &options.film.frames {
+        Some(numbers) => numbers.clone(),
+        None => FrameNumbers::first(count),
+    };
+    if let Some(beyond) = due.iter().find(|number| *number >= count) {
+        return Err(Error::BeyondFilm { number: beyond, count });
+    }
+    let due = Due::of(options, &due, part);
+    if due.is_done(options) {
+        return Ok(());
+    }
+    let dial = dial_of_stills(&options.dial, &options.picture);
+    let equipment = equipment(options, speed_of_light, turn.inverse() * DVec3::Y);
+    let mut camera = Cameraman::new(gpu, scene, &options.picture, dial, equipment)?;
     let last = || reel.last().map(seen).ok_or(Error::NothingRidden);
     match &options.out {
-        Output::Picture(path) => camera.still(&last()?, path),
-        Output::Light(path) => camera.light(&last()?, path),
+        Output::Picture(path) => camera.still(&last()?, path, FrameFile::Png),
+        Output::Light(path) => camera.still(&last()?, path, FrameFile::Exr),
         Output::Folder(path) => Ok(writable(path)?),
-        Output::Film(path) => {
-            let count = reel.len();
-            camera.film(reel.pictures().map(|moment| Ok(seen(moment))), count, rate, path)
+        out @ (Output::Film(_) | Output::Sequence(..)) => {
+            let mut numbers = due.numbers.iter().peekable();
+            let pictures = reel
+                .pictures()
+                .zip(0..)
+                .filter_map(|(moment, number)| numbers.next_if_eq(&&number).map(|number| Ok((*number, seen(moment)))));
+            camera.film(pictures, due.numbers.len() as u64, film_out(options, out))
         }
     }
+}
+
+/// Numbers of the pictures that are to be drawn, in order.
+struct Due {
+    numbers: Vec<u64>,
+    /// Number of those that are there.
+    kept: usize,
+}
+
+impl Due {
+    /// Pictures of a part of a farm, without those that are there and whole, if the options say so.
+    fn of(options: &RenderOptions, numbers: &FrameNumbers, part: FarmPart) -> Self {
+        let mut numbers: Vec<u64> = numbers.shared(options.film.step.unwrap_or(1), part).collect();
+        numbers.sort_unstable();
+        let all = numbers.len();
+        if let (Output::Sequence(name, _), true) = (&options.out, options.film.resume) {
+            let layout = options.projection.stereo;
+            let size = layout.map_or(options.picture.size, |layout| layout.size(options.picture.size));
+            let names = filming::eye_names(name, layout);
+            numbers.retain(|number| !names.iter().all(|name| is_whole(&name.path(*number), size)));
+        }
+        Self { kept: all - numbers.len(), numbers }
+    }
+
+    /// True if nothing is left to draw of numbered pictures; says how many are kept.
+    fn is_done(&self, options: &RenderOptions) -> bool {
+        let Output::Sequence(name, _) = &options.out else { return false };
+        if self.kept > 0 {
+            tell(format_args!(
+                "{}: {} pictures are there and whole, {} are to be drawn",
+                name.pattern().display(),
+                self.kept,
+                self.numbers.len()
+            ));
+        } else if self.numbers.is_empty() {
+            tell(format_args!("{}: no pictures fall to this part", name.pattern().display()));
+        }
+        self.numbers.is_empty()
+    }
+}
+
+/// Part of the pictures that this program draws.
+fn part(options: &RenderOptions) -> Result<FarmPart, Error> {
+    match options.film.part {
+        None => Ok(FarmPart::WHOLE),
+        Some(PartChoice::Named(part)) => Ok(part),
+        Some(PartChoice::Environment) => Ok(FarmPart::of_environment(|name| std::env::var(name).ok())?),
+    }
+}
+
+/// Place of a film's pictures.
+fn film_out<'a>(options: &RenderOptions, out: &'a Output) -> FilmOut<'a> {
+    match out {
+        Output::Sequence(name, kind) => FilmOut::Numbered(name, *kind),
+        Output::Picture(path) | Output::Light(path) | Output::Film(path) | Output::Folder(path) => {
+            let codec = options.film.codec.unwrap_or_else(|| Codec::usual(path));
+            FilmOut::Film(path, codec, options.film.frames_per_second())
+        }
+    }
+}
+
+/// Projection, eyes and lens. `upright`: axis of the head's turns, axes of the picture's middle.
+fn equipment(options: &RenderOptions, speed_of_light: f64, upright: DVec3) -> Equipment {
+    let (rays, projection) = (&options.rays, &options.projection);
+    let lens = rays.aperture.zip(rays.focus).map(|(aperture_m, focus_m)| CameraLens { aperture_m, focus_m });
+    let (separation_m, wall_m) = (projection.eye_separation_m(), projection.wall_m());
+    Equipment {
+        projection: projection.projection,
+        stereo: projection.stereo.map(|layout| (StereoEyes { separation_m, wall_m, upright }, layout)),
+        optics: Optics { lens, exposure_m: rays.shutter.unwrap_or(0.0) * speed_of_light },
+        bounces: rays.bounces.unwrap_or(0),
+    }
+}
+
+/// World's up in the axes of a gaze.
+fn upright(gaze: &Gaze) -> DVec3 {
+    gaze.observer_from_eye.inverse() * DVec3::Y
+}
+
+/// Turn of the picture against the rider's own gaze.
+fn rider_look(viewpoint: &Viewpoint) -> DQuat {
+    let ahead = Start { look: DVec3::NEG_Z, up: DVec3::Y, ..Start::default() };
+    let look = viewpoint.look.unwrap_or(ahead.look);
+    Camera::looking(look, viewpoint.up(&ahead), 1.0).observer_from_eye
 }
 
 /// View of an observer in uniform motion, `proper_time` metres of light travel after the start.

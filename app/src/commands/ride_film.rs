@@ -3,7 +3,7 @@
 //! Drawing may be slower than riding, and devices do not wait. So a live ride is recorded in real time, and the film
 //! is drawn when the ride has ended. A recorded rider and the built-in tour need no clock.
 
-use crate::commands::cameraman::{Cameraman, dial_of_stills};
+use crate::commands::cameraman::{Cameraman, Equipment, FilmOut, dial_of_stills};
 use crate::commands::tour_film;
 use crate::error::Error;
 use crate::output::progress;
@@ -15,6 +15,7 @@ use crate::session::start::{RideRoom, first_actions, prepared, present};
 use command::RideOptions;
 use hardware::SetUp;
 use input::{KeyboardKey, Nanos, SECOND, Sample, VehicleKind};
+use picture_files::Codec;
 use render::Gpu;
 use ride::{LogError, RideLog, Simulation, Tour};
 use scene::{Scene, Start};
@@ -60,9 +61,10 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
             (scene, reel, recorded)
         }
     };
-    let mut camera = Cameraman::new(&gpu, scene, &options.picture, dial_of_stills(&options.dial, &options.picture))?;
+    let dial = dial_of_stills(&options.dial, &options.picture);
+    let mut camera = Cameraman::new(&gpu, scene, &options.picture, dial, Equipment::default())?;
     let count = reel.len();
-    camera.film(reel.pictures().map(Ok), count, rate, path)?;
+    camera.film((0..).zip(reel.pictures()).map(Ok), count, FilmOut::Film(path, Codec::usual(path), rate))?;
     // What was ridden is filmed even if it could not be recorded.
     Ok(recorded?)
 }

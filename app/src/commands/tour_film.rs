@@ -1,7 +1,7 @@
 //! Film of a tour: its ride, with the captions in the pictures. Where the tour waits for a visitor, the film shows the
 //! text for as long as it takes to read it, and gives the right answer.
 
-use crate::commands::cameraman::{Cameraman, dial_of_stills};
+use crate::commands::cameraman::{Cameraman, Equipment, FilmOut, dial_of_stills};
 use crate::commands::film_titles::FilmTitles;
 use crate::error::Error;
 use crate::output::say::tell;
@@ -11,6 +11,7 @@ use crate::session::waiting::{self, ReadyTour};
 use command::RideOptions;
 use input::{Action, Nanos, SECOND, Sample};
 use interface::{Caption, CaptionQuestion};
+use picture_files::Codec;
 use render::Gpu;
 use std::path::Path;
 
@@ -67,9 +68,9 @@ pub fn film(gpu: &Gpu, options: &RideOptions, name: &str, path: &Path) -> Result
     let recorded = log.finish();
     let titles = FilmTitles::new(gpu, &scene, options.picture.size);
     let dial = dial_of_stills(&options.dial, &options.picture);
-    let mut camera = Cameraman::new(gpu, scene, &options.picture, dial)?.with_titles(titles);
+    let mut camera = Cameraman::new(gpu, scene, &options.picture, dial, Equipment::default())?.with_titles(titles);
     let count = reel.len();
-    camera.film(reel.pictures().map(Ok), count, rate, path)?;
+    camera.film((0..).zip(reel.pictures()).map(Ok), count, FilmOut::Film(path, Codec::usual(path), rate))?;
     Ok(recorded?)
 }
 

@@ -4,12 +4,12 @@ use crate::canvas::Canvas;
 use crate::error::Error;
 use picture_files::files::{save, unused};
 use presentation::Presentation;
-use render::display::Development;
-use render::picture::{Darkroom, Studio};
+use render::display::{Development, Seen};
 use render::target::Format;
 use render::{Gpu, SceneRenderer};
-use view::Gaze;
-use walls::{FlatPicture, SphereLight, Walls};
+use studio::Darkroom;
+use view::{Gaze, Projection};
+use walls::{FlatPicture, ProjectedPicture, ProjectedView, Quality, Walls};
 
 /// Writes the picture into `photo-001.png` or the next free number, as an eye sees it that is adapted to it. For a
 /// room, writes one file for each window. Returns the names of the files.
@@ -29,8 +29,9 @@ pub fn take(
     }
 }
 
-/// Height of a picture of all directions, pixels, and samples of each of its pixels.
-const SPHERE: (u32, u32) = (1440, 2);
+/// Width and height of a picture of all directions, pixels, and samples of each of its pixels.
+const SPHERE: [u32; 2] = [2880, 1440];
+const SPHERE_SAMPLES: u32 = 2;
 
 /// Writes a picture of all directions into `sphere-001.png` or the next free number. Its middle is where the gaze goes.
 /// Returns the name of the file.
@@ -44,9 +45,15 @@ pub fn take_sphere(
     gaze: &Gaze,
     presentation: &Presentation,
 ) -> Result<String, Error> {
-    let light = SphereLight::around(gpu, renderer, gaze, presentation.effects, SPHERE, format)?;
-    let mut studio = Studio::with_format(gpu, light.size, 1, format);
-    let picture = studio.develop(gpu, &light.texels, light.stored, &presentation.development, None)?;
+    let quality = Quality { format, samples: SPHERE_SAMPLES, density: 1.0, smooth: false };
+    let mut sphere = ProjectedPicture::new(gpu, Projection::Sphere, SPHERE, None, quality);
+    let view = ProjectedView { gaze: *gaze, fov_deg: presentation.fov_deg, effects: presentation.effects };
+    let pending = sphere.submit(gpu, renderer, &view)?;
+    sphere.draw(gpu, renderer, &view, pending)?;
+    let mut darkroom = Darkroom::new(gpu, SPHERE, format.colour);
+    let stored = sphere.stored();
+    let seen: Vec<_> = sphere.lights().into_iter().map(|radiance| Seen { radiance, stored, elapsed_s: None }).collect();
+    let picture = darkroom.begin(gpu, &seen, &presentation.development).finish_one(gpu)?;
     let path = unused("sphere", "png");
     save(&picture, &path)?;
     Ok(path.display().to_string())

@@ -1,10 +1,10 @@
 //! Window with the surface that is drawn on.
 
 use crate::output::say::tell;
-use render::picture::largest_side;
 use render::{Gpu, GpuError};
 use std::sync::Arc;
 use std::time::Instant;
+use studio::largest_side;
 use walls::{TextureAnswer, TextureWaiter, WaiterGone};
 use wgpu::CurrentSurfaceTexture as Current;
 use winit::dpi::PhysicalSize;

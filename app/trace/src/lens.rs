@@ -11,7 +11,7 @@
 use glam::{DVec2, DVec3};
 use physics::{Boost, FourVector, Observer};
 use std::f64::consts::TAU;
-use view::{Places, Shot};
+use view::{PlaceSight, Places, Shot};
 
 /// A thin lens in front of the observer, at rest in the observer's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,20 +49,27 @@ impl Optics {
 
     /// Observer for a sample of a pixel, and the direction in which it looks.
     ///
-    /// *Frames:* `ahead` is the pixel's direction in eye axes, (x, y, −1); the result is in the observer's axes.
+    /// *Frames:* `sight` is the pixel's line of sight in eye axes; the result is in the observer's axes.
     ///
     /// *Equation:* a thin lens brings together the rays that cross at a point of its focal plane. From the place o in
-    /// the lens a pixel looks along F (x, y, −1) − o, F being the distance of that plane (W C.1.2).
-    pub fn look(&self, shot: &Shot, ahead: DVec3, pixel: [u32; 2], sample: u32) -> (Observer, DVec3) {
+    /// the lens a pixel looks along F (x, y, −1) − o, F being the distance of that plane (W C.1.2). In a picture that
+    /// is not flat each direction has a lens of its own, square to it, and F is a distance from the eye.
+    pub fn look(&self, shot: &Shot, sight: PlaceSight, pixel: [u32; 2], sample: u32) -> (Observer, DVec3) {
         let draw = LensDraw::of(pixel, sample);
         let observer = shot.observer;
         let tau = self.exposure_m * draw.moment;
-        let mut ahead = ahead;
-        let mut place = DVec3::ZERO;
+        let PlaceSight { from_m, mut ahead, .. } = sight;
+        let mut place = shot.camera.observer_from_eye * from_m;
         if let Some(lens) = self.lens.filter(|lens| lens.aperture_m > 0.0) {
-            let eye = (0.5 * lens.aperture_m * draw.lens).extend(0.0);
+            let on_lens = 0.5 * lens.aperture_m * draw.lens;
+            let eye = if sight.is_flat {
+                on_lens.extend(0.0)
+            } else {
+                let (across, up) = ahead.any_orthonormal_pair();
+                across * on_lens.x + up * on_lens.y
+            };
             ahead = ahead * lens.focus_m - eye;
-            place = shot.camera.observer_from_eye * eye;
+            place += shot.camera.observer_from_eye * eye;
         }
         let gone = if shot.effects.places != Places::Instant {
             let world_from_observer = Boost::observer_from_world(observer.celerity).inverse();

@@ -10,7 +10,7 @@ use physics::Celerity;
 use rayon::prelude::*;
 use scene::{Scene, SceneFault};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use view::{Shot, Stored, sample_offset};
+use view::{Framing, PlaceSight, Shot, Stored, sample_offset};
 
 /// Side of a tile, pixels. Each tile is traced in one go.
 const TILE: u32 = 16;
@@ -19,6 +19,8 @@ const TILE: u32 = 16;
 pub struct RayTracer {
     scene: LitScene,
     optics: Optics,
+    /// Way in which pictures take their directions from the eye.
+    pub framing: Framing,
     /// Largest number of turns of a ray.
     bounces: u32,
 }
@@ -69,7 +71,7 @@ impl RayTracer {
     pub fn new(scene: Scene, background: Option<[f32; 3]>, exact_light: bool) -> Result<Self, SceneFault> {
         scene.validate()?;
         let scene = LitScene::new(scene, background, exact_light);
-        Ok(Self { scene, optics: Optics::default(), bounces: 0 })
+        Ok(Self { scene, optics: Optics::default(), framing: Framing::default(), bounces: 0 })
     }
 
     /// Tracer with this lens and shutter.
@@ -140,10 +142,20 @@ impl RayTracer {
         let observer = self.scene.observer(&shot.observer, shot.effects.places);
         let pixels: Vec<_> = pixels(Tile { first: [0, 0], beyond: size }).collect();
         let place = |pixel: &[u32; 2]| {
-            let seen = (shot.camera.observer_from_eye * ahead(shot, size, *pixel, DVec2::ZERO)).normalize();
-            self.scene.place(&observer, seen)
+            let sight = self.sight(shot, size, *pixel, DVec2::ZERO)?;
+            let seen = (shot.camera.observer_from_eye * sight.ahead).normalize();
+            if sight.from_m == DVec3::ZERO {
+                return self.scene.place(&observer, seen);
+            }
+            let (eye, seen) = Optics::default().look(shot, sight, *pixel, 0);
+            self.scene.place(&self.scene.observer(&eye, shot.effects.places), seen)
         };
         pixels.par_iter().map(place).collect()
+    }
+
+    /// Line of sight of a place in a pixel, given from its centre, in eye axes.
+    fn sight(&self, shot: &Shot, size: [u32; 2], [column, row]: [u32; 2], offset: DVec2) -> Option<PlaceSight> {
+        self.framing.sight(shot, size, DVec2::new(f64::from(column), f64::from(row)) + 0.5 + offset)
     }
 
     /// Mean of a pixel's samples.
@@ -159,23 +171,19 @@ impl RayTracer {
         let mut sum = ObservedLight::default();
         let (effects, bounces) = (shot.effects, self.bounces);
         for sample in 0..samples {
-            let ahead = ahead(shot, size, pixel, sample_offset(sample, samples));
-            if self.optics.is_pinhole() {
-                let seen = (shot.camera.observer_from_eye * ahead).normalize();
+            // Where the picture shows nothing, it is black.
+            let Some(sight) = self.sight(shot, size, pixel, sample_offset(sample, samples)) else { continue };
+            if self.optics.is_pinhole() && sight.from_m == DVec3::ZERO {
+                let seen = (shot.camera.observer_from_eye * sight.ahead).normalize();
                 sum += self.scene.seen(observer, seen, effects, bounces);
             } else {
-                let (observer, seen) = self.optics.look(shot, ahead, pixel, sample);
+                let (observer, seen) = self.optics.look(shot, sight, pixel, sample);
                 let observer = self.scene.observer(&observer, effects.places);
                 sum += self.scene.seen(&observer, seen, effects, bounces);
             }
         }
         sum * (1.0 / f64::from(samples))
     }
-}
-
-/// Direction of a place in a pixel, in eye axes: (x, y, −1).
-fn ahead(shot: &Shot, size: [u32; 2], [column, row]: [u32; 2], offset: DVec2) -> DVec3 {
-    shot.camera.ahead(size, DVec2::new(f64::from(column), f64::from(row)) + 0.5 + offset)
 }
 
 /// Part of a picture that is traced in one go: its first column and row, and those beyond it.

@@ -1,7 +1,7 @@
 //! Channels on curved screens or behind a projector's lens. Every pixel shows a point of the room. A method with a map
 //! of all directions looks along its direction; others draw flat pictures, in which the pixel looks up its place.
 
-use crate::facet::{Facet, SurfaceGrid, facets};
+use crate::facet::{Facet, Fineness, SurfaceGrid, facets};
 use bytemuck::bytes_of;
 use glam::{DVec2, DVec3, Vec4};
 use rayon::prelude::*;
@@ -33,15 +33,37 @@ pub struct Curved {
 impl Curved {
     /// Creates the map of a channel. The points of its pixels do not depend on the eye and are computed only once.
     pub fn new(gpu: &Gpu, display: &Display, channel: &Channel, format: Format) -> Self {
-        let size @ [width, height] = channel.size();
-        let points = points(gpu, display, channel, size);
+        let points = points(gpu, display, channel, channel.size());
+        let point = |place| channel.point(display, place);
+        Self::with_points(gpu, channel.size(), points, (point, Fineness::Mean), format)
+    }
 
+    /// Creates the map of a picture of `size` pixels from the point that each of its places shows, 0 to 1 from the
+    /// upper left.
+    pub fn of_places(gpu: &Gpu, size: [u32; 2], point: impl Fn(DVec2) -> Option<DVec3> + Sync, format: Format) -> Self {
+        let pixels = DVec2::new(f64::from(size[0]), f64::from(size[1]));
+        let of_pixel = |index: u64| {
+            let at = DVec2::new((index % u64::from(size[0])) as f64, (index / u64::from(size[0])) as f64);
+            point((at + 0.5) / pixels)
+        };
+        let all = (0..u64::from(size[0]) * u64::from(size[1])).into_par_iter().map(of_pixel).collect();
+        Self::with_points(gpu, size, upload(gpu, size, all), (point, Fineness::Longer), format)
+    }
+
+    fn with_points(
+        gpu: &Gpu,
+        size @ [width, height]: [u32; 2],
+        points: wgpu::TextureView,
+        (point, fineness): (impl Fn(DVec2) -> Option<DVec3> + Sync, Fineness),
+        format: Format,
+    ) -> Self {
         let at = |index: usize| (index as f64 / GRID as f64).clamp(1e-9, 1.0 - 1e-9);
-        let place = |index: usize| channel.point(display, DVec2::new(at(index % (GRID + 1)), at(index / (GRID + 1))));
+        let place = |index: usize| point(DVec2::new(at(index % (GRID + 1)), at(index / (GRID + 1))));
         let grid = SurfaceGrid {
             size: [GRID + 1; 2],
             points: (0..(GRID + 1) * (GRID + 1)).into_par_iter().map(place).collect(),
             pixels: DVec2::new(f64::from(width), f64::from(height)) / GRID as f64,
+            fineness,
         };
         let shown = Radiance::new(gpu, size, format);
         Self { whole_points: points.clone(), points, grid, facets: Vec::new(), targets: Vec::new(), shown }
@@ -104,9 +126,14 @@ impl Curved {
 }
 
 /// Texture of the room's points for `size` pixels spread evenly over a channel.
-fn points(gpu: &Gpu, display: &Display, channel: &Channel, size @ [width, height]: [u32; 2]) -> wgpu::TextureView {
+fn points(gpu: &Gpu, display: &Display, channel: &Channel, size: [u32; 2]) -> wgpu::TextureView {
+    upload(gpu, size, channel.points(display, size))
+}
+
+/// Texture of points, row by row.
+fn upload(gpu: &Gpu, [width, height]: [u32; 2], points: Vec<Option<DVec3>>) -> wgpu::TextureView {
     let texel = |point: Option<DVec3>| point.map_or([0.0; 4], |point| point.as_vec3().extend(1.0).to_array());
-    let texels: Vec<[f32; 4]> = channel.points(display, size).into_iter().map(texel).collect();
+    let texels: Vec<[f32; 4]> = points.into_iter().map(texel).collect();
     let (format, bytes) = (wgpu::TextureFormat::Rgba32Float, bytemuck::cast_slice(&texels));
     view_from_rows(gpu, "points", [width, height, 1], format, bytes)
 }

@@ -16,6 +16,8 @@ const COARSER_SHARE: f64 = 0.05;
 const SEAM: f64 = 1.0 + 1e-3;
 /// Step of texture sizes. With multiples of it, a moving head does not need new textures for every frame.
 const STEP: u32 = 32;
+/// Step of texture sizes where no head moves.
+const FINER_STEP: u32 = 8;
 
 /// Points of a surface at an even grid of a viewport's places: rows from above, columns from the left.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +28,37 @@ pub struct SurfaceGrid {
     pub points: Vec<Option<DVec3>>,
     /// Distance between neighbouring columns and rows, pixels of the viewport.
     pub pixels: DVec2,
+    /// Side of a pixel for which flat pictures are fine enough.
+    pub fineness: Fineness,
+}
+
+/// Side of a pixel that is not square.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fineness {
+    /// Side of a square of the same area: nothing is lost of the picture's pixels.
+    Mean,
+    /// The longer side. Beside the poles of a sphere's picture many pixels share what one shows elsewhere, and flat
+    /// pictures as fine as these would be many times as large.
+    Longer,
+}
+
+impl Fineness {
+    /// Side of a pixel whose sides are these.
+    fn side(self, right: DVec2, down: DVec2) -> f64 {
+        match self {
+            Self::Mean => right.perp_dot(down).abs().sqrt(),
+            Self::Longer => right.length().max(down.length()),
+        }
+    }
+
+    /// Step of texture sizes, texels.
+    fn step(self) -> u32 {
+        match self {
+            Self::Mean => STEP,
+            // The eyes of these pictures do not move before them.
+            Self::Longer => FINER_STEP,
+        }
+    }
 }
 
 /// Flat picture of a part of what an eye sees.
@@ -77,8 +110,8 @@ fn sized(facet: Facet, grid: &SurfaceGrid, directions: &[Option<DVec3>], density
     let [columns, rows] = grid.size;
     let at = |column: usize, row: usize| facet.place(directions[row * columns + column]?);
     let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let mut widest = 0.0_f64;
-    // Side of a square with the area of one pixel, in tangents, for each cell of the grid.
+    let mut widest = DVec2::ZERO;
+    // Side of a pixel, in tangents, for each cell of the grid.
     let mut sides = Vec::new();
     for row in 0..rows {
         for column in 0..columns {
@@ -87,9 +120,9 @@ fn sized(facet: Facet, grid: &SurfaceGrid, directions: &[Option<DVec3>], density
             let next = |wanted: bool, column, row| if wanted { at(column, row) } else { None };
             let right = next(column + 1 < columns, column + 1, row).map(|there| there - here);
             let down = next(row + 1 < rows, column, row + 1).map(|there| there - here);
-            widest = [right, down].into_iter().flatten().map(DVec2::length).fold(widest, f64::max);
+            widest = [right, down].into_iter().flatten().map(DVec2::abs).fold(widest, DVec2::max);
             if let (Some(right), Some(down)) = (right, down) {
-                sides.push((right.perp_dot(down).abs() / (grid.pixels.x * grid.pixels.y)).sqrt());
+                sides.push(grid.fineness.side(right / grid.pixels.x, down / grid.pixels.y));
             }
         }
     }
@@ -100,14 +133,15 @@ fn sized(facet: Facet, grid: &SurfaceGrid, directions: &[Option<DVec3>], density
     }
     // Between the grid's points, the surface may extend up to one step beyond the last point that this facet shows,
     // and its pixels are slightly finer there than at the points.
-    let margin = if widest > 0.0 { widest } else { facet.limit };
+    let margin = DVec2::select(widest.cmpgt(DVec2::ZERO), widest, DVec2::splat(facet.limit));
     let bound = DVec2::splat(facet.limit * SEAM);
     let (low, high) = ((low - margin).max(-bound), (high + margin).min(bound));
-    let wanted = finest.map_or(f64::from(STEP), |side| density / side);
-    let most = f64::from(largest / STEP * STEP) / (high - low).max_element();
+    let step = grid.fineness.step();
+    let wanted = finest.map_or(f64::from(step), |side| density / side);
+    let most = f64::from(largest / step * step) / (high - low).max_element();
     let focal_length = wanted.min(most);
     let size = ((high - low) * focal_length).ceil();
-    let size = [size.x, size.y].map(|side| (side as u32).max(1).next_multiple_of(STEP));
+    let size = [size.x, size.y].map(|side| (side as u32).max(1).next_multiple_of(step));
     let half = 0.5 * DVec2::new(f64::from(size[0]), f64::from(size[1])) / focal_length;
     let middle = 0.5 * (low + high);
     Some(Facet { tangents: Tangents { low: middle - half, high: middle + half }, size, ..facet })
@@ -152,7 +186,7 @@ mod tests {
                 points.push(Some(2.0 * (level + DVec3::Y * latitude.sin())));
             }
         }
-        SurfaceGrid { size, points, pixels: DVec2::new(16.0, 16.0) }
+        SurfaceGrid { size, points, pixels: DVec2::new(16.0, 16.0), fineness: Fineness::Mean }
     }
 
     #[test]

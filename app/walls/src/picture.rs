@@ -12,7 +12,7 @@ use render::certainty::Certainty;
 use render::display::{Accumulator, Developer, Pass, clear};
 use render::target::{Radiance, texture};
 use render::{BentScreen, Gpu, HiddenArea, SceneRenderer, near_m};
-use room::{Channel, Display, EyeBehind, frustum};
+use room::{Channel, Display, EyeBehind, FlatSurface, frustum};
 use view::{Camera, Effects, Field, PixelSample, Shot, Stored, Tangents};
 
 /// Side of the square of pixels that share one computed gain, pixels.
@@ -46,8 +46,6 @@ enum PictureTarget {
 pub struct EyeContext<'a> {
     /// Graphics device.
     pub gpu: &'a Gpu,
-    /// Display with the room's screens.
-    pub display: &'a Display,
     /// Fineness of the pictures.
     pub quality: &'a Quality,
     /// Passes that add up samples.
@@ -60,6 +58,8 @@ pub struct EyeContext<'a> {
     pub eye: OccupantEye,
     /// Relativistic effects on the picture.
     pub effects: Effects,
+    /// Factor of the stored light that all pictures share; `None` if each channel has its own.
+    pub stored_scale: Option<f64>,
 }
 
 impl EyeContext<'_> {
@@ -80,15 +80,29 @@ impl ChannelPicture {
     /// Creates the targets and tables of a channel.
     pub fn new(gpu: &Gpu, display: &Display, channel: &Channel, quality: &Quality, passes: &Developer) -> Self {
         let size = channel.size();
-        let target = match channel.flat(display) {
-            Some(_) => PictureTarget::Flat(Box::new(Radiance::new(gpu, size, quality.format))),
-            None => PictureTarget::Curved(Box::new(Curved::new(gpu, display, channel, quality.format))),
+        let mut picture = match channel.flat(display) {
+            Some(_) => Self::flat(gpu, size, quality, passes),
+            None => Self::curved(gpu, Curved::new(gpu, display, channel, quality.format), quality, passes),
         };
-        let sum = (quality.samples > 1).then(|| passes.accumulator(gpu, size));
-        let mut picture =
-            Self { target, enlarged: None, sum, gains: None, developed: None, stored: Stored::UNSHIFTED, near_m: None };
         picture.update_gains(gpu, display, channel);
         picture
+    }
+
+    /// Creates the targets of a flat picture of `size` pixels.
+    pub fn flat(gpu: &Gpu, size: [u32; 2], quality: &Quality, passes: &Developer) -> Self {
+        let target = Radiance::new(gpu, size, quality.format);
+        Self::with(gpu, PictureTarget::Flat(Box::new(target)), size, quality, passes)
+    }
+
+    /// Creates the targets of a picture whose pixels show points of any surface.
+    pub fn curved(gpu: &Gpu, curved: Curved, quality: &Quality, passes: &Developer) -> Self {
+        let size = curved.shown.size;
+        Self::with(gpu, PictureTarget::Curved(Box::new(curved)), size, quality, passes)
+    }
+
+    fn with(gpu: &Gpu, target: PictureTarget, size: [u32; 2], quality: &Quality, passes: &Developer) -> Self {
+        let sum = (quality.samples > 1).then(|| passes.accumulator(gpu, size));
+        Self { target, enlarged: None, sum, gains: None, developed: None, stored: Stored::UNSHIFTED, near_m: None }
     }
 
     /// Computes the gains of the channel's pixels anew.
@@ -169,16 +183,17 @@ impl ChannelPicture {
     }
 
     /// Views and sizes of the channel's flat pictures. If the eye is behind the screen, the picture is made black.
+    /// `flat`: the screen, if it is flat.
     ///
     /// # Errors
     /// [`EyeBehind`] if the eye is behind the screen.
     pub fn aim(
         &mut self,
-        channel: &Channel,
+        flat: Option<&FlatSurface>,
         renderer: &SceneRenderer,
         context: &EyeContext<'_>,
     ) -> Result<Vec<(Shot, [u32; 2])>, EyeBehind> {
-        let mut shots = match self.shots(channel, renderer, context) {
+        let mut shots = match self.shots(flat, renderer, context) {
             Ok(shots) => shots,
             Err(behind) => {
                 self.blacken(context.gpu);
@@ -186,7 +201,7 @@ impl ChannelPicture {
             }
         };
         // The pictures of a channel store light with the same scale.
-        let scale = shots.first().map(|(shot, _)| shot.scale());
+        let scale = context.stored_scale.or_else(|| shots.first().map(|(shot, _)| shot.scale()));
         shots.iter_mut().for_each(|(shot, _)| shot.stored_scale = scale);
         Ok(shots)
     }
@@ -263,22 +278,21 @@ impl ChannelPicture {
     /// Views and sizes of the channel's flat pictures.
     fn shots(
         &mut self,
-        channel: &Channel,
+        flat: Option<&FlatSurface>,
         renderer: &SceneRenderer,
         context: &EyeContext<'_>,
     ) -> Result<Vec<(Shot, [u32; 2])>, EyeBehind> {
         let place_m = context.eye.place_m;
         match &mut self.target {
             PictureTarget::Flat(target) => {
-                let flat = channel.flat(context.display).expect("its screen is flat");
-                let frustum = frustum(&flat, place_m)?;
+                let frustum = frustum(flat.expect("its screen is flat"), place_m)?;
                 if let Some(hidden) = &target.hidden {
                     hidden.place(context.gpu, &frustum.tangents);
                 }
                 Ok(vec![(context.shot(frustum.room_from_eye, frustum.tangents), target.size)])
             }
             PictureTarget::Curved(curved) => {
-                let share = f64::from(curved.shown.size[0]) / f64::from(channel.size()[0]);
+                let share = f64::from(curved.shown.size[0]) / f64::from(curved.whole_points.texture().width());
                 if renderer.shows_bent_screens(context.effects) {
                     curved.look_from(context.gpu, place_m, share);
                     curved.targets.clear();

@@ -9,10 +9,10 @@ use crate::walls::Walls;
 use glam::{DMat3, DVec3};
 use image::RgbaImage;
 use render::display::{DevelopedPart, Development, LINEAR_FORMAT, clear};
-use render::picture::{SCREEN_FORMAT, Sheet};
 use render::target::texture;
 use render::{Gpu, GpuError};
 use room::{Combine, EyeSide};
+use studio::{SCREEN_FORMAT, Sheet};
 
 impl Walls {
     /// Shows all channels of a window in it. `first_pixel` is the place of the window's upper left pixel on its

@@ -110,8 +110,8 @@ mod tests {
 
     use super::*;
     use glam::{DMat3, DQuat, DVec2};
-    use render::picture::Sheet;
     use room::{Display, HeadsetEye};
+    use studio::Sheet;
 
     /// Width and height of the pictures, pixels.
     const SIZE: [u32; 2] = [96, 80];

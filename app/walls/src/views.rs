@@ -2,7 +2,7 @@
 
 use render::Gpu;
 use render::display::Pass;
-use render::picture::{SCREEN_FORMAT, Sheet};
+use studio::{SCREEN_FORMAT, Sheet};
 
 /// Side of the target on which a device is tried, pixels.
 const SIDE: u32 = 4;

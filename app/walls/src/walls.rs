@@ -188,11 +188,12 @@ impl Walls {
             let transformed = renderer.show(gpu, pending)?;
             drawn.transform += transformed.duration;
             drawn.not_finite += transformed.not_finite;
-            let context = EyeContext { gpu, display, quality, passes, enlarger, resample, eye, effects };
-            let of_eye = context.display.channels.iter().zip(&mut self.pictures);
+            let stored_scale = None;
+            let context = EyeContext { gpu, quality, passes, enlarger, resample, eye, effects, stored_scale };
+            let of_eye = display.channels.iter().zip(&mut self.pictures);
             let mut aimed = Vec::new();
             for (channel, picture) in of_eye.filter(|(channel, _)| channel.eye == side) {
-                match picture.aim(channel, renderer, &context) {
+                match picture.aim(channel.flat(display).as_ref(), renderer, &context) {
                     Ok(shots) => aimed.push((picture, shots)),
                     Err(behind) => drawn.behind.push((channel.name.clone(), behind)),
                 }

@@ -44,7 +44,7 @@ fn errors(scene: &Scene, method: Dial, eye: DVec3, celerity: DVec3, look: DVec3)
     let places = photographer.places(&view, eye, celerity);
     let pixels = (0..SIZE[1]).flat_map(|row| (0..SIZE[0]).map(move |column| [column, row]));
     // What moves has places of its own frame; the hands of clocks are compared with rays in `clocks`.
-    let resting = |(pixel, shown): ([u32; 2], Option<render::picture::Shown>)| {
+    let resting = |(pixel, shown): ([u32; 2], Option<studio::Shown>)| {
         let shown = shown.filter(|shown| shown.motion.is_none())?;
         Some((view.direction(middle(pixel)), shown.position + scene.origin))
     };

@@ -14,7 +14,7 @@ use physics::{Beta, Celerity};
 use rand::RngExt;
 use render::display::adaptation::TIME_CONSTANT_S;
 use render::display::{Development, Exposure, Gamut, Tone};
-use render::picture::light;
+use studio::light;
 use system_tests::colour::encoded;
 use system_tests::display::{AdaptingEye, adapted, in_gamut, luminance, texture, toned};
 use system_tests::photographer::{Photographer, gpu};

@@ -45,7 +45,9 @@ impl Developer {
 
     /// Textures for the sum of several samples.
     pub fn accumulator(&self, gpu: &Gpu, size: [u32; 2]) -> Accumulator {
-        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::COPY_SRC;
         let sum = || texture(gpu, "sum", size, self.sum_format, 1, usage);
         Accumulator { sums: [sum(), sum()], current: 0, filled: false }
     }
@@ -263,6 +265,11 @@ pub fn encodes(screen: wgpu::TextureFormat) -> bool {
 pub fn resample(gpu: &Gpu, format: wgpu::TextureFormat, smooth: bool) -> Pass {
     let overrides = [("SMOOTH", f64::from(u8::from(smooth)))];
     Pass::new(gpu, &shaders::RESAMPLE, &overrides, &[UNFILTERED, UNIFORM, UNFILTERED], format)
+}
+
+/// Pass that takes a picture of any projection from light of all directions; see `from_sphere.wgsl`.
+pub fn from_sphere(gpu: &Gpu, format: wgpu::TextureFormat) -> Pass {
+    Pass::new(gpu, &shaders::FROM_SPHERE, &[], &[UNFILTERED, UNFILTERED], format)
 }
 
 /// Pass that writes linear light to a screen.

@@ -18,7 +18,9 @@ mod enlarge;
 mod passes;
 
 pub use adaptation::{Adaptation, Seen};
-pub use developer::{Accumulator, DevelopedPart, Developer, LINEAR_FORMAT, copy, encoded, encodes, resample};
+pub use developer::{
+    Accumulator, DevelopedPart, Developer, LINEAR_FORMAT, copy, encoded, encodes, from_sphere, resample,
+};
 pub use development::{Development, Exposure, Gamut, Tone};
 pub use enlarge::Enlarger;
 pub use passes::{
