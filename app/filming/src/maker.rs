@@ -83,9 +83,9 @@ impl PictureMaker {
             Way::Flat(renderer, Box::new(Studio::new(gpu, size, samples)))
         } else {
             let format = Studio::format(gpu);
-            // A picture with several samples for each of its pixels need not be finer as well.
-            let density = if samples == 1 { 3.0 } else { 1.0 };
-            let quality = Quality { format, samples, density, smooth: false };
+            // With one sample a pixel has the colour of the nearest of many rays; else rays are mixed.
+            let (density, smooth) = if samples == 1 { (3.0, false) } else { (1.5, true) };
+            let quality = Quality { format, samples, density, smooth };
             let picture = ProjectedPicture::new(gpu, projection, size, stereo, quality);
             Way::Projected(renderer, Box::new(picture), Box::new(Darkroom::new(gpu, size, format.colour)))
         };
@@ -193,8 +193,11 @@ impl PictureMaker {
 
     /// Estimated errors of directions in the picture drawn last. `None` if it was traced.
     pub fn certainty(&self, view: &FilmView) -> Option<Certainty> {
-        let shot = view.drawn_shot();
-        self.renderer().map(|renderer| renderer.certainty(&shot, self.options.size))
+        match &self.way {
+            Way::Flat(renderer, _) => Some(renderer.certainty(&view.drawn_shot(), self.options.size)),
+            Way::Projected(_, picture, _) => Some(picture.certainty()),
+            Way::Rays(..) => None,
+        }
     }
 }
 

@@ -45,7 +45,7 @@ pub fn take_sphere(
     gaze: &Gaze,
     presentation: &Presentation,
 ) -> Result<String, Error> {
-    let quality = Quality { format, samples: SPHERE_SAMPLES, density: 1.0, smooth: false };
+    let quality = Quality { format, samples: SPHERE_SAMPLES, density: 1.5, smooth: true };
     let mut sphere = ProjectedPicture::new(gpu, Projection::Sphere, SPHERE, None, quality);
     let view = ProjectedView { gaze: *gaze, fov_deg: presentation.fov_deg, effects: presentation.effects };
     let pending = sphere.submit(gpu, renderer, &view)?;

@@ -38,6 +38,7 @@ pub struct ProjectedPicture {
     /// Joined light of each eye; empty if it is that of a single part.
     lights: Vec<wgpu::TextureView>,
     stored: Stored,
+    certainty: Certainty,
 }
 
 /// Origin of the light.
@@ -120,7 +121,7 @@ impl ProjectedPicture {
         let eyes = if stereo.is_some() { 2 } else { usize::from(!whole) };
         let lights = (0..eyes).map(|_| texture(gpu, "joined light", size, format, 1, usage)).collect();
         let resample = resample(gpu, colour, quality.smooth);
-        Self { size, quality, passes, resample, source, lights, stored: Stored::UNSHIFTED }
+        Self { size, quality, passes, resample, source, lights, stored: Stored::UNSHIFTED, certainty: Certainty::default() }
     }
 
     /// Begins what can be worked out of a picture beside other drawing: the photo-surface of its first eye.
@@ -144,23 +145,24 @@ impl ProjectedPicture {
         renderer: &mut SceneRenderer,
         view: &ProjectedView,
         pending: Pending,
-    ) -> Result<Certainty, GpuError> {
-        let Self { size, quality, passes, resample, source, lights, stored } = self;
+    ) -> Result<(), GpuError> {
+        let Self { size, quality, passes, resample, source, lights, stored, certainty } = self;
         let (parts, groups) = match source {
             LightSource::Parts(parts, groups) => (parts, groups),
             LightSource::Sphere(sphere, taker) => {
-                let certainty = sphere.draw(gpu, renderer, &taker.view(view), pending)?;
-                *stored = sphere.stored;
+                sphere.draw(gpu, renderer, &taker.view(view), pending)?;
+                (*stored, *certainty) = (sphere.stored, sphere.certainty);
                 let mut encoder = gpu.device.create_command_encoder(&Default::default());
                 for (light, of_sphere) in lights.iter().zip(sphere.lights()) {
                     taker.take(gpu, &mut encoder, of_sphere, light);
                 }
                 gpu.queue.submit([encoder.finish()]);
-                return Ok(certainty);
+                return Ok(());
             }
         };
         let stored_scale = Some(view.gaze.shot(view.fov_deg, view.effects).scale());
-        let mut certainty = Certainty::default();
+        *certainty = Certainty::default();
+        let strips = groups.len() > 2;
         let mut next = Some(pending);
         for (number, group) in groups.iter().enumerate() {
             let pending = next.take().unwrap_or_default();
@@ -185,7 +187,11 @@ impl ProjectedPicture {
             renderer.prepare_eye(gpu, &all);
             for (place, context, shots) in &aimed {
                 let Part { picture, size: part_size, .. } = &mut parts[place.part];
-                certainty = certainty.or_worse(picture.draw(renderer, shots, context));
+                let drawn = picture.draw(renderer, shots, context);
+                // A strip is too narrow to estimate anything from the edges in it.
+                if !strips {
+                    *certainty = certainty.or_worse(drawn);
+                }
                 *stored = picture.stored;
                 if let Some(light) = lights.get(group.light) {
                     let extent = [0, 1].map(|axis| part_size[axis].min(size[axis] - place.corner[axis]));
@@ -193,7 +199,7 @@ impl ProjectedPicture {
                 }
             }
         }
-        Ok(certainty)
+        Ok(())
     }
 
     /// Light of each eye, the left one first.
@@ -202,6 +208,11 @@ impl ProjectedPicture {
             LightSource::Parts(parts, _) if self.lights.is_empty() => vec![parts[0].picture.light()],
             _ => self.lights.iter().collect(),
         }
+    }
+
+    /// Estimated errors of directions in the picture drawn last; nothing is said of strips.
+    pub fn certainty(&self) -> Certainty {
+        self.certainty
     }
 
     /// Scale in which the light is stored.
