@@ -1,8 +1,6 @@
 // Takes a picture from light of all directions: each pixel's direction finds its place in the sphere, whose width is the
 // whole turn and whose height the angle from above to below.
 
-const TURN: f32 = 6.283185307179586;
-
 // Direction for each pixel, axes of the sphere; w = 0 where the picture shows nothing.
 @group(0) @binding(0) var directions: texture_2d<f32>;
 @group(0) @binding(1) var sphere: texture_2d<f32>;

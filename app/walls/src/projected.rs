@@ -121,7 +121,16 @@ impl ProjectedPicture {
         let eyes = if stereo.is_some() { 2 } else { usize::from(!whole) };
         let lights = (0..eyes).map(|_| texture(gpu, "joined light", size, format, 1, usage)).collect();
         let resample = resample(gpu, colour, quality.smooth);
-        Self { size, quality, passes, resample, source, lights, stored: Stored::UNSHIFTED, certainty: Certainty::default() }
+        Self {
+            size,
+            quality,
+            passes,
+            resample,
+            source,
+            lights,
+            stored: Stored::UNSHIFTED,
+            certainty: Certainty::default(),
+        }
     }
 
     /// Begins what can be worked out of a picture beside other drawing: the photo-surface of its first eye.
@@ -345,8 +354,8 @@ fn sphere_width(projection: Projection, size: [u32; 2]) -> f64 {
     let side = f64::from(size[1]);
     let pixels_per_radian = match projection {
         Projection::Fisheye { full_rad } => side / full_rad,
-        // The middle of a face is its finest place but for the factor of its corners.
-        Projection::Cube => 0.25 * side,
+        // Towards its edges a face is twice as fine as in its middle.
+        Projection::Cube => 0.5 * side,
         Projection::Flat | Projection::Sphere | Projection::Vr180 => side / PI,
     };
     FINER * TAU * pixels_per_radian

@@ -19,6 +19,7 @@ mod measured;
 mod mirrors;
 mod moving;
 mod outside;
+mod projections;
 mod radiance;
 mod raytrace;
 mod resting;
