@@ -1,6 +1,6 @@
 //! Course of an animated camera of a glTF scene, over the world's time.
 
-use crate::course::CourseMoment;
+use crate::course_moment::CourseMoment;
 use crate::error::CameraPathError;
 use crate::eye::{celerity_of, looking};
 use crate::fastest::fastest;

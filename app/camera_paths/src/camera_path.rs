@@ -1,7 +1,8 @@
 //! Camera path: courses one after the other, asked for by own time.
 
 use crate::camera_course::CameraCourse;
-use crate::course::{CourseMoment, PathCourse};
+use crate::course::PathCourse;
+use crate::course_moment::CourseMoment;
 use crate::error::CameraPathError;
 use crate::part_plan::PartBefore;
 use crate::path_file::{PathFile, PathScene};
@@ -98,9 +99,10 @@ impl CameraPath {
         Ok(Self { parts })
     }
 
-    /// Path of an animated camera of a scene (`Scene::cameras`), from its first key to its last, where light has the speed
-    /// `speed_of_light_m_s`. Its keys' times are times of the world, and its turns are those of the observer's axes. Keys
-    /// that the file joins by straight lines make the camera's celerity leap at each; those of a cubic spline do not.
+    /// Path of an animated camera of a scene (`Scene::cameras`), from its first key to its last, where light has the
+    /// speed `speed_of_light_m_s`. Its keys' times are times of the world, and its turns are those of the observer's
+    /// axes. Keys that the file joins by straight lines make the camera's celerity leap at each; those of a cubic
+    /// spline do not.
     ///
     /// # Errors
     /// [`CameraPathError`]: a camera that is not animated, or would be as fast as light.
@@ -125,13 +127,23 @@ impl CameraPath {
         self.parts.iter().map(|part| part.begins_s).collect()
     }
 
-    /// View at an own time, seconds. At the moment at which one part ends, the next is seen; before the beginning and after
-    /// the end the path's first and last moments are.
+    /// View at an own time, seconds. At the moment at which one part ends, the next is seen; before the beginning and
+    /// after the end the path's first and last moments are.
     pub fn at(&self, own_s: f64) -> PathView {
         let part = self.parts.partition_point(|part| part.begins_s <= own_s).saturating_sub(1);
         let PathPart { begins_s, course, .. } = &self.parts[part];
         let CourseMoment { observer, turn, fov_deg } = course.at(own_s - begins_s);
         let gaze = Gaze { observer, observer_from_eye: turn };
         PathView { part, gaze, fov_deg, upright: turn * DVec3::Y }
+    }
+}
+
+impl PathFile {
+    /// Path where light has these speeds in the parts, m/s, one for each.
+    ///
+    /// # Errors
+    /// [`CameraPathError`] if the camera would be as fast as light, or faster than can be shown.
+    pub fn path(&self, speeds_of_light_m_s: &[f64]) -> Result<CameraPath, CameraPathError> {
+        CameraPath::of(self, speeds_of_light_m_s)
     }
 }

@@ -1,6 +1,6 @@
 //! Circle at a constant speed: the one course whose own time is in closed form, τ = t/γ.
 
-use crate::course::CourseMoment;
+use crate::course_moment::CourseMoment;
 use crate::eye::{PathEye, celerity_of};
 use glam::DVec3;
 use physics::{Event, Observer};

@@ -2,10 +2,9 @@
 
 use crate::camera_course::CameraCourse;
 use crate::circle::CircleCourse;
+use crate::course_moment::CourseMoment;
 use crate::keys::KeyCourse;
 use crate::legs::LegCourse;
-use glam::DQuat;
-use physics::Observer;
 
 /// Course through one part of a path.
 #[derive(Clone, Debug)]
@@ -18,17 +17,6 @@ pub(crate) enum PathCourse {
     Circle(Box<CircleCourse>),
     /// Course of an animated camera.
     Camera(Box<CameraCourse>),
-}
-
-/// Camera at one moment of its own time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct CourseMoment {
-    /// Event and celerity of the eye.
-    pub(crate) observer: Observer,
-    /// Rotation from the eye's axes to the observer's.
-    pub(crate) turn: DQuat,
-    /// Vertical field of view, degrees, if the path gives one.
-    pub(crate) fov_deg: Option<f64>,
 }
 
 impl PathCourse {

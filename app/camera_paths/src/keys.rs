@@ -4,7 +4,7 @@
 //! γ. Over the world's time its velocity has to stay below c, and own time is the integral of 1/γ, of which the inverse
 //! leads back to the keys' time.
 
-use crate::course::CourseMoment;
+use crate::course_moment::CourseMoment;
 use crate::eye::{PathEye, celerity_of};
 use crate::fastest::fastest;
 use crate::path_clock::PathClock;

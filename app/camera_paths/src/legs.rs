@@ -4,7 +4,7 @@
 //! A state a second is kept. From the one before, a moment is at most a second of steps away, and the rest of a step is
 //! taken as the frames of a ride take it.
 
-use crate::course::CourseMoment;
+use crate::course_moment::CourseMoment;
 use crate::eye::PathEye;
 use glam::DVec3;
 use physics::worldline::{Integrator, Rk4, Thrust, WorldlineError, WorldlineState};

@@ -1,7 +1,7 @@
 //! A number between keys, as a field of view: smooth, and never beyond the two keys that it is between.
 //!
-//! *Equation:* Hermite's cubics with the slopes of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5, 1984): the weighted
-//! harmonic mean of the slopes on both sides, zero where these have different signs, and at the ends.
+//! *Equation:* Hermite's cubics with the slopes of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5, 1984): the
+//! weighted harmonic mean of the slopes on both sides, zero where these have different signs, and at the ends.
 
 /// Smooth curve through numbers.
 #[derive(Clone, Debug)]
@@ -49,8 +49,8 @@ impl NumberSpline {
 
 #[cfg(test)]
 mod tests {
-    //! Law: a number passes through its keys, stays between neighbours, and its slope has no leaps. A cubic spline swings
-    //! beyond its keys, and a field of view of −3 degrees is none.
+    //! Law: a number passes through its keys, stays between neighbours, and its slope has no leaps. A cubic spline
+    //! swings beyond its keys, and a field of view of −3 degrees is none.
     use super::*;
 
     #[test]

@@ -1,7 +1,8 @@
 //! Plan of one part of a path: what its file says, checked, before a speed of light makes a course of it.
 
 use crate::circle::CircleCourse;
-use crate::course::{CourseMoment, PathCourse};
+use crate::course::PathCourse;
+use crate::course_moment::CourseMoment;
 use crate::error::CameraPathError;
 use crate::eye::EyeKeys;
 use crate::keys::{KeyCourse, KeyTime};
@@ -112,8 +113,8 @@ impl PartPlan {
         self.scene.is_none() && self.light_m_s.is_none()
     }
 
-    /// Course of the part where light has the speed `light_m_s`. `before`: part that it goes on from. `name` and `part`:
-    /// file, and part in words, for messages.
+    /// Course of the part where light has the speed `light_m_s`. `before`: part that it goes on from. `name` and
+    /// `part`: file, and part in words, for messages.
     pub(crate) fn course(
         &self,
         light_m_s: f64,

@@ -1,8 +1,8 @@
 //! Clock along a path: the integral of its rate over a parameter, and the parameter at a reading.
 //!
-//! A parameter may be the world's time and the clock the camera's own, dτ/dt = √(1 − β²), or the other way round,
-//! dt/dτ = √(1 + u²). The way is cut until Gauss's rule of ten points over a piece and over its halves agree to rounding;
-//! a reading is then one sum in its piece, and the inverse is Newton's iteration there, held between the piece's ends.
+//! A parameter may be the world's time and the clock the camera's own, dτ/dt = √(1 − β²), or the other way round, dt/dτ
+//! = √(1 + u²). The way is cut until Gauss's rule of ten points over a piece and over its halves agree to rounding; a
+//! reading is then one sum in its piece, and the inverse is Newton's iteration there, held between the piece's ends.
 
 /// Places and weights of Gauss and Legendre's rule of ten points on −1 to 1, the positive half (Abramowitz & Stegun,
 /// table 25.4).
@@ -111,8 +111,8 @@ fn integral([from, to]: [f64; 2], rate: &dyn Fn(f64) -> f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    //! Law: reading and parameter are inverse to each other and agree with integrals that are known in closed form, even
-    //! where the rate touches zero. A coarse sum is off by more than rounding there.
+    //! Law: reading and parameter are inverse to each other and agree with integrals that are known in closed form,
+    //! even where the rate touches zero. A coarse sum is off by more than rounding there.
     use super::*;
 
     #[test]

@@ -1,6 +1,5 @@
 //! Reader of path files: strict, with the line and the key in every sentence.
 
-use crate::camera_path::CameraPath;
 use crate::error::CameraPathError;
 use crate::keys::KeyTime;
 use crate::part_plan::{
@@ -169,14 +168,6 @@ impl PathFile {
             scenes.push(scene);
         }
         scenes
-    }
-
-    /// Path where light has these speeds in the parts, m/s, one for each.
-    ///
-    /// # Errors
-    /// [`CameraPathError`] if the camera would be as fast as light, or faster than can be shown.
-    pub fn path(&self, speeds_of_light_m_s: &[f64]) -> Result<CameraPath, CameraPathError> {
-        CameraPath::of(self, speeds_of_light_m_s)
     }
 }
 

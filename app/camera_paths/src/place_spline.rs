@@ -1,7 +1,7 @@
 //! Places between keys: a cubic spline, whose velocity and acceleration are continuous.
 //!
-//! The spline is the natural one, with no acceleration at its ends. At a stop it comes to rest: there it is cut into two
-//! splines with velocity zero at their common end.
+//! The spline is the natural one, with no acceleration at its ends. At a stop it comes to rest: there it is cut into
+//! two splines with velocity zero at their common end.
 //!
 //! *Equation:* with M the accelerations at the keys of an interval of length h, a the rest and t the time since its
 //! beginning, S = y₀ + t Δ + (M₀ (a³ − h² a) + M₁ (t³ − h² t))/(6h), Δ = (y₁ − y₀)/h; continuous velocities make a
@@ -102,8 +102,8 @@ fn moments(times_s: &[f64], places: &[DVec3], rests: [bool; 2]) -> Vec<DVec3> {
 
 #[cfg(test)]
 mod tests {
-    //! Law: a spline passes through its keys, its velocity and acceleration are its derivatives and have no leaps, and it
-    //! rests where it is told to. A line of straight pieces leaps in velocity at each key.
+    //! Law: a spline passes through its keys, its velocity and acceleration are its derivatives and have no leaps, and
+    //! it rests where it is told to. A line of straight pieces leaps in velocity at each key.
     use super::*;
 
     fn spline(stops: [bool; 5]) -> PlaceSpline {

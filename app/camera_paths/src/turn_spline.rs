@@ -1,9 +1,9 @@
 //! Turns between keys: a curve of rotations whose rate of turn is continuous, whatever the times of the keys.
 //!
-//! *Equation:* Bézier's cubic in its cumulative form on the sphere of quaternions, q(s) = q₀ exp(w₁ B₁(s)) exp(w₂ B₂(s))
-//! exp(w₃ B₃(s)) (Kim, Kim and Shin, SIGGRAPH 1995), with w₁ and w₃ a third of the turn that the rates at the two keys make
-//! in the interval, and w₂ what is left. Rates at the keys are the means of the rates on both sides, each weighted by the
-//! other's length; a rest on one side makes it zero, so that a look that is held does not swing.
+//! *Equation:* Bézier's cubic in its cumulative form on the sphere of quaternions, q(s) = q₀ exp(w₁ B₁(s)) exp(w₂
+//! B₂(s)) exp(w₃ B₃(s)) (Kim, Kim and Shin, SIGGRAPH 1995), with w₁ and w₃ a third of the turn that the rates at the
+//! two keys make in the interval, and w₂ what is left. Rates at the keys are the means of the rates on both sides, each
+//! weighted by the other's length; a rest on one side makes it zero, so that a look that is held does not swing.
 
 use glam::{DQuat, DVec3};
 

@@ -1,9 +1,9 @@
 //! Glide: what changes by leaps, from one report of a device to the next, as a film shows it in between.
 //!
-//! A tracker reports 60 times a second, and a film may have 120 pictures. A head that stayed where it was last seen would
-//! go on in every second picture. So it is shown on its way: from where it was shown when the newest report came, to
-//! what that report says, in a straight line and for as long as the interval between the last two reports took. It has
-//! no leaps, uses nothing that was not known at its time, and comes an interval late. After a rest the way takes no
+//! A tracker reports 60 times a second, and a film may have 120 pictures. A head that stayed where it was last seen
+//! would go on in every second picture. So it is shown on its way: from where it was shown when the newest report came,
+//! to what that report says, in a straight line and for as long as the interval between the last two reports took. It
+//! has no leaps, uses nothing that was not known at its time, and comes an interval late. After a rest the way takes no
 //! longer than [`LONGEST`].
 
 use glam::DQuat;

@@ -1,5 +1,5 @@
-//! Law: on a circle at a constant speed own time is t/γ, the celerity has one magnitude and is along the tangent, and the
-//! camera is pulled to the centre. A wrong program takes the world's time for the camera's, or leaves the circle.
+//! Law: on a circle at a constant speed own time is t/γ, the celerity has one magnitude and is along the tangent, and
+//! the camera is pulled to the centre. A wrong program takes the world's time for the camera's, or leaves the circle.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use crate::support::{assert_derivatives, path};

@@ -1,5 +1,6 @@
-//! Law: an animated camera of a glTF file is flown by the world's time of its keys, through the transforms above it, with
-//! the celerity that its keys give, and its own time is the slower for it. A wrong program sees with a camera at rest.
+//! Law: an animated camera of a glTF file is flown by the world's time of its keys, through the transforms above it,
+//! with the celerity that its keys give, and its own time is the slower for it. A wrong program sees with a camera at
+//! rest.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use crate::support::assert_derivatives;
@@ -12,8 +13,8 @@ use serde_json::json;
 
 const LIGHT: f64 = 10.0;
 
-/// Scene of one triangle with a camera below an animated node, which is turned by 90 degrees to the left, and a camera at
-/// rest. The keys: times, and places three by three.
+/// Scene of one triangle with a camera below an animated node, which is turned by 90 degrees to the left, and a camera
+/// at rest. The keys: times, and places three by three.
 fn scene(interpolation: &str, times: &[f32], places: &[f32]) -> Scene {
     let triangle: [f32; 9] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
     let bytes = |numbers: &[f32]| numbers.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>();

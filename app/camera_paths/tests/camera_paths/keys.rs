@@ -1,5 +1,5 @@
-//! Law: a camera passes through its keys, its celerity is the derivative of its place by its own clock, and its clock and
-//! the world's are each other's inverse. A wrong program leaps at the keys, or takes one time for the other.
+//! Law: a camera passes through its keys, its celerity is the derivative of its place by its own clock, and its clock
+//! and the world's are each other's inverse. A wrong program leaps at the keys, or takes one time for the other.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use crate::support::{assert_derivatives, path};

@@ -1,5 +1,5 @@
-//! Law: constant proper thrust is hyperbolic motion, legs go on where the one before ended, and an event between two steps
-//! lies on the same worldline. A wrong program adds velocities up to that of light, or restarts each leg.
+//! Law: constant proper thrust is hyperbolic motion, legs go on where the one before ended, and an event between two
+//! steps lies on the same worldline. A wrong program adds velocities up to that of light, or restarts each leg.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use crate::support::{assert_derivatives, path};

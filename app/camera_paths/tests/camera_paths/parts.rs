@@ -1,5 +1,5 @@
-//! Law: parts follow each other by own time; a part without a scene of its own goes on in the time of the one before, and
-//! legs in its place and motion. A wrong program begins each part at time zero, or sees the wrong scene.
+//! Law: parts follow each other by own time; a part without a scene of its own goes on in the time of the one before,
+//! and legs in its place and motion. A wrong program begins each part at time zero, or sees the wrong scene.
 #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use camera_paths::{CameraPath, PathFile, PathScene};

@@ -1,8 +1,8 @@
-//! Law: what a film shows between two frames of a ride is what a faster ride would have shown, and asking for it changes
-//! no bit of the ride. Head and look go on evenly between the reports of their devices.
+//! Law: what a film shows between two frames of a ride is what a faster ride would have shown, and asking for it
+//! changes no bit of the ride. Head and look go on evenly between the reports of their devices.
 //!
-//! A program that shows the newest recorded frame stands still in three pictures of four. One that simulates the ride at
-//! the pictures' times, instead of showing it there on a copy, rides another ride.
+//! A program that shows the newest recorded frame stands still in three pictures of four. One that simulates the ride
+//! at the pictures' times, instead of showing it there on a copy, rides another ride.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too, may fail the test")]
 
@@ -123,7 +123,7 @@ fn a_look_turns_evenly_between_ticks() {
         let at = n * SECOND / 30;
         let due: Vec<Sample> = looking_ride()
             .into_iter()
-            .filter(|sample| sample.at > at - (n > 0) as u64 * SECOND / 30 && sample.at <= at)
+            .filter(|sample| sample.at > at - u64::from(n > 0) * SECOND / 30 && sample.at <= at)
             .collect();
         ride.frame_for(at, &due, Some(&mut film));
     }
