@@ -164,7 +164,7 @@ fn a_film_sees_with_the_tracked_head() {
     let c = ridden[0].vehicle.light_speed().speed_of_light_m_s();
     let mut fastest: f64 = 0.0;
     // Before the first tick nothing is known of a head.
-    for frame in ridden[1..].iter().chain(&film[2..]) {
+    for frame in ridden[1..].iter().chain(&film[3..]) {
         let (head, seen) = (frame.controls.head.unwrap(), frame.head_gaze());
         let (state, u) = (frame.vehicle.state(), Celerity::new(head.velocity_m_s / c).unwrap());
         fastest = fastest.max(u.magnitude());
@@ -189,7 +189,7 @@ fn a_film_sees_with_the_tracked_head() {
 #[test]
 fn a_tracked_head_goes_on_evenly_between_ticks() {
     let (_, film) = walking(960);
-    let places: Vec<DVec3> = film[4..].iter().map(|frame| frame.controls.head.unwrap().position_m).collect();
+    let places: Vec<DVec3> = film[5..].iter().map(|frame| frame.controls.head.unwrap().position_m).collect();
     let steps: Vec<f64> = places.windows(2).map(|two| two[1].distance(two[0])).collect();
     // A quarter of a tick each: none stands still, none leaps. It begins to walk after a second.
     for three in steps[980..1500].windows(3) {
