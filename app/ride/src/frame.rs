@@ -1,7 +1,9 @@
 //! One frame of a ride: the observer, and the numbers that are recorded.
 
 use input::Controls;
+use input::head::Tracking;
 use input::recording::FrameRecord;
+use physics::Celerity;
 use view::Gaze;
 
 use crate::vehicle::{Notice, Vehicle};
@@ -26,4 +28,18 @@ pub struct RideFrame {
     pub notices: Vec<Notice>,
     /// Number of ticks that were not simulated, because the frame came late.
     pub dropped_ticks: u64,
+}
+
+impl RideFrame {
+    /// View of the rider's own head: of the tracked head in the vehicle, which moves and turns in it; of the resting
+    /// eye ([`RideFrame::gaze`]) where no tracker has seen a head. A head counts as resting while the ride is paused.
+    ///
+    /// *Frames, units:* the room in which the head is tracked has the vehicle's axes and its reference point as origin.
+    pub fn head_gaze(&self) -> Gaze {
+        let Some(head) = self.controls.head.filter(|head| head.tracked != Tracking::Never) else { return self.gaze };
+        let c = self.vehicle.light_speed().speed_of_light_m_s();
+        let celerity = Celerity::new(head.velocity_m_s / c).ok().filter(|_| !self.paused).unwrap_or_default();
+        let eye = self.vehicle.state().aboard(head.position_m, celerity, self.vehicle.thrust());
+        Gaze { observer: eye.observer(), observer_from_eye: eye.orientation * head.orientation }
+    }
 }

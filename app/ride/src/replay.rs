@@ -11,6 +11,7 @@ use scene::Surroundings;
 use crate::frame::RideFrame;
 use crate::setup::{Setup, SetupError};
 use crate::simulation::Simulation;
+use crate::taker::FrameTaker;
 
 /// Recorded ride that is simulated again, frame by frame.
 ///
@@ -69,6 +70,15 @@ impl<Entries: Iterator<Item = Result<RecordingEntry, RecordingError>>> Replay<En
     /// # Errors
     /// [`ReplayError`] if the recording is damaged here. All frames before may be used.
     pub fn next_frame(&mut self) -> Result<Option<Replayed>, ReplayError> {
+        self.next_frame_for(None)
+    }
+
+    /// Next frame as by [`Replay::next_frame`], to the bit, and on the way to it those that `taker` wants
+    /// ([`Simulation::frame_for`]).
+    ///
+    /// # Errors
+    /// Those of [`Replay::next_frame`].
+    pub fn next_frame_for(&mut self, mut taker: Option<&mut dyn FrameTaker>) -> Result<Option<Replayed>, ReplayError> {
         let mut samples: Vec<Sample> = Vec::new();
         let mut controls = None;
         for entry in self.entries.by_ref() {
@@ -76,7 +86,7 @@ impl<Entries: Iterator<Item = Result<RecordingEntry, RecordingError>>> Replay<En
                 Ok(RecordingEntry::Sample(sample)) => samples.push(sample),
                 Ok(RecordingEntry::Controls(record)) => controls = Some(record),
                 Ok(RecordingEntry::Frame(recorded)) => {
-                    let frame = self.simulation.frame(recorded.at, &samples);
+                    let frame = self.simulation.frame_for(recorded.at, &samples, taker.take());
                     let difference = controls
                         .filter(|record| record.frame == recorded.frame)
                         .and_then(|record| controls_difference(&record.controls, &frame.controls))

@@ -14,6 +14,11 @@
 //! The rider may look round ([`Controls::look`]): that turns the frame's gaze and nothing else, so the worldline and
 //! the recorded numbers are those of a rider who looks along the nose.
 //!
+//! A film needs the ride at the times of its pictures, which lie between the frames. Whoever takes them
+//! ([`FrameTaker`]) is handed such frames on the way to the next one ([`Simulation::frame_for`]): each is made of the
+//! ticks due by then and of the rest of a tick on a copy, as a frame of that time would have been. Head and look, which
+//! change by leaps from report to report, glide there ([`BetweenReports`]).
+//!
 //! Nothing else enters: no clock, no thread, no random number. The same [`Setup`], samples and frame times give the
 //! same bits, and a [`Replay`](crate::Replay) proves it. The ticks do not depend on the frame times either, as long as
 //! every sample is there by the tick that it precedes, and no frame takes more than a quarter of a second. After a
@@ -22,15 +27,17 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use input::recording::FrameRecord;
-use input::{Action, Controls, Desk, FreeLook, Nanos, Place, Sample};
+use input::{Action, Controls, Desk, HeadState, Nanos, Place, Sample};
 use scene::Surroundings;
 use view::Gaze;
 
 use crate::assist::{Assist, AssistMode};
+use crate::between_reports::BetweenReports;
 use crate::frame::RideFrame;
 use crate::setup::{Setup, SetupError};
+use crate::taker::FrameTaker;
 use crate::ticks::{TICKS_PER_SECOND, Ticks};
 use crate::vehicle::{LightSpeed, Notice, Vehicle};
 
@@ -59,6 +66,18 @@ pub struct Simulation {
     paused: bool,
     time_scale: f64,
     frames: u64,
+    /// Head and look as they are shown between two frames. They decide nothing.
+    head: Option<BetweenReports<HeadState>>,
+    look: Option<BetweenReports<DQuat>>,
+}
+
+/// What has happened since the last frame.
+#[derive(Clone, Debug, Default)]
+struct SinceFrame {
+    steps: u64,
+    actions: Vec<Action>,
+    notices: Vec<Notice>,
+    dropped_ticks: u64,
 }
 
 impl Simulation {
@@ -87,6 +106,8 @@ impl Simulation {
             paused: false,
             time_scale: 1.0,
             frames: 0,
+            head: None,
+            look: None,
         })
     }
 
@@ -118,32 +139,64 @@ impl Simulation {
     /// Simulates up to the real time `at`. `samples` are all samples since the frame before; those dated later than
     /// `at` wait.
     pub fn frame(&mut self, at: Nanos, samples: &[Sample]) -> RideFrame {
-        samples.iter().for_each(|sample| self.wait(sample));
-        let (ticks, dropped_ticks) = self.ticks.due(at);
-        let mut steps = 0;
-        let mut actions = Vec::new();
-        let mut notices = Vec::new();
-        for tick in ticks {
-            steps += self.tick(tick, &mut notices);
-            actions.append(&mut self.controls.actions);
-        }
+        self.frame_for(at, samples, None)
+    }
 
+    /// Frame of [`Simulation::frame`], to the bit, and on the way to it those that `taker` wants.
+    pub fn frame_for(&mut self, at: Nanos, samples: &[Sample], mut taker: Option<&mut dyn FrameTaker>) -> RideFrame {
+        samples.iter().for_each(|sample| self.wait(sample));
+        let wanted = taker.as_mut().map_or_else(Vec::new, |taker| taker.wanted(at));
+        let mut wanted = wanted.into_iter().peekable();
+        let mut newest = self.ticks.last();
+        let (ticks, dropped_ticks) = self.ticks.due(at);
+        let mut since = SinceFrame { dropped_ticks, ..SinceFrame::default() };
+        for tick in ticks {
+            while let Some(between) = wanted.next_if(|between| *between < tick) {
+                if let Some(taker) = &mut taker {
+                    taker.take(self.between(between, newest, &since));
+                }
+            }
+            since.steps += self.tick(tick, &mut since.notices);
+            since.actions.append(&mut self.controls.actions);
+            newest = tick;
+        }
+        if let Some(taker) = &mut taker {
+            wanted.for_each(|between| taker.take(self.between(between.min(at), newest, &since)));
+        }
+        let frame = self.shown(at, newest, since);
+        self.frames += 1;
+        frame
+    }
+
+    /// Frame at the time `at`, not before the newest tick, as it is shown.
+    fn shown(&self, at: Nanos, newest: Nanos, since: SinceFrame) -> RideFrame {
         let mut shown = self.vehicle.clone();
         if !self.paused {
-            shown.step(self.own_s() * self.ticks.fraction(at), &self.steered, &*self.surroundings);
+            shown.step(self.own_s() * Ticks::fraction(newest, at), &self.steered, &*self.surroundings);
         }
-        let record = record(self.frames, at, steps, &shown);
-        self.frames += 1;
+        let SinceFrame { steps, actions, notices, dropped_ticks } = since;
         RideFrame {
-            record,
+            record: record(self.frames, at, steps, &shown),
             controls: Controls { actions, ..self.controls.clone() },
-            gaze: turned(shown.gaze(), &self.controls.look),
+            gaze: turned(shown.gaze(), self.controls.look.nose_from_gaze()),
             vehicle: shown,
             paused: self.paused,
             time_scale: self.time_scale,
             notices,
             dropped_ticks,
         }
+    }
+
+    /// Frame between two others, in which head and look glide.
+    fn between(&self, at: Nanos, newest: Nanos, since: &SinceFrame) -> RideFrame {
+        let mut frame = self.shown(at, newest, since.clone());
+        if let (Some(head), Some(state)) = (&self.head, &mut frame.controls.head) {
+            *state = head.at(at);
+        }
+        if let Some(look) = &self.look {
+            frame.gaze = turned(frame.vehicle.gaze(), look.at(at));
+        }
+        frame
     }
 
     /// Queues a sample by its time, after those of the same time.
@@ -159,6 +212,8 @@ impl Simulation {
         }
         self.desk.ride(self.vehicle.kind());
         self.controls = self.desk.controls(at);
+        self.head = self.controls.head.map(|head| BetweenReports::on(self.head.take(), at, head));
+        self.look = Some(BetweenReports::on(self.look.take(), at, self.controls.look.nose_from_gaze()));
         let mut single_steps = 0;
         for index in 0..self.controls.actions.len() {
             let action = self.controls.actions[index].clone();
@@ -236,11 +291,11 @@ impl Simulation {
 }
 
 /// Gaze of a rider who looks round: another direction of view from the same eye.
-fn turned(gaze: Gaze, look: &FreeLook) -> Gaze {
-    if look.is_ahead() {
+fn turned(gaze: Gaze, nose_from_gaze: DQuat) -> Gaze {
+    if nose_from_gaze == DQuat::IDENTITY {
         return gaze;
     }
-    Gaze { observer_from_eye: gaze.observer_from_eye * look.nose_from_gaze(), ..gaze }
+    Gaze { observer_from_eye: gaze.observer_from_eye * nose_from_gaze, ..gaze }
 }
 
 fn tell(notices: &mut Vec<Notice>, notice: Notice) {

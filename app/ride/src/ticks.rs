@@ -28,9 +28,14 @@ impl Ticks {
         ((first..=due).map(time), dropped)
     }
 
-    /// Share of a tick that has passed at `at` since the last one, from 0 to below 1.
-    pub(super) fn fraction(&self, at: Nanos) -> f64 {
-        let since = at.saturating_sub(time(self.passed)) as f64 * 1e-9 * f64::from(TICKS_PER_SECOND);
+    /// Time of the last tick that has passed.
+    pub(super) fn last(&self) -> Nanos {
+        time(self.passed)
+    }
+
+    /// Share of a tick that has passed at `at` since the one at `tick`, from 0 to below 1.
+    pub(super) fn fraction(tick: Nanos, at: Nanos) -> f64 {
+        let since = at.saturating_sub(tick) as f64 * 1e-9 * f64::from(TICKS_PER_SECOND);
         since.min(1.0 - f64::EPSILON)
     }
 }
@@ -90,7 +95,7 @@ mod tests {
         let mut ticks = Ticks::default();
         assert_eq!(ticks.due(SECOND / 8).0.count(), 30);
         assert_eq!(ticks.due(0).0.count(), 0);
-        assert_eq!(ticks.fraction(0), 0.0);
+        assert_eq!(Ticks::fraction(ticks.last(), 0), 0.0);
         assert_eq!(ticks.due(SECOND / 4).0.count(), 30);
     }
 
@@ -99,9 +104,10 @@ mod tests {
         let mut ticks = Ticks::default();
         let second_tick = SECOND / 120 + 1;
         assert_eq!(ticks.due(second_tick).0.count(), 2);
-        assert!(ticks.fraction(second_tick) < 1e-6);
-        assert!((ticks.fraction(second_tick + SECOND / 480) - 0.5).abs() < 1e-6);
-        assert!(ticks.fraction(SECOND) < 1.0);
-        assert!(Ticks { passed: u64::MAX }.fraction(u64::MAX) < 1.0);
+        let fraction = |at| Ticks::fraction(ticks.last(), at);
+        assert!(fraction(second_tick) < 1e-6);
+        assert!((fraction(second_tick + SECOND / 480) - 0.5).abs() < 1e-6);
+        assert!(fraction(SECOND) < 1.0);
+        assert!(Ticks::fraction(Ticks { passed: u64::MAX }.last(), u64::MAX) < 1.0);
     }
 }

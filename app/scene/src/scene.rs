@@ -6,7 +6,7 @@ use crate::lighting::Lighting;
 use crate::local_name::LocalName;
 use crate::material::{Material, Texture};
 use crate::mesh::Mesh;
-use crate::motion::Motion;
+use crate::motion::{CameraMotion, Motion};
 use crate::panorama::Panorama;
 use glam::DVec3;
 use physics::colour::Spectrum;
@@ -118,8 +118,10 @@ pub struct NamedPlace {
 pub struct ViewCamera {
     /// Name from the file.
     pub name: String,
-    /// Place and view of its eye.
+    /// Place and view of its eye, at the beginning if it moves.
     pub start: Start,
+    /// Motion of the camera, if the file animates it; a film may follow it.
+    pub motion: Option<CameraMotion>,
 }
 
 impl Scene {

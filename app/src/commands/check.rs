@@ -2,10 +2,10 @@
 
 use crate::error::Error;
 use crate::output::say::{say, say_exactly, tell};
-use crate::session::gaps::ShownTimes;
 use command::{CheckOptions, ReadingOptions};
 use hardware::SetUp;
 use input::recording::{Recording, RecordingEntry, RecordingError};
+use ride::ShownTimes;
 use room::Display;
 use scene_files::gltf::ReadRules;
 use serde_json::{Value, json};

@@ -86,7 +86,7 @@ fn follow(
     let spinner = progress::spinner("riding");
     let period = SECOND / Nanos::from(FRAMES_PER_SECOND * FRAMES_PER_PICTURE);
     while !stop.load(Ordering::Relaxed) {
-        let Some(frame) = live.frame()? else { break };
+        let Some(frame) = live.frame_for(Some(&mut reel))? else { break };
         reel.add(&frame);
         let next = (frame.record.at / period + 1) * period;
         std::thread::sleep(Duration::from_nanos(next.saturating_sub(live.now())));
@@ -109,17 +109,17 @@ fn demonstrate(
 ) -> Result<Followed, Error> {
     let mut rider = Demonstrator::new(scene, &simulation);
     let stop = interrupted();
-    while !stop.load(Ordering::Relaxed) {
-        let at = reel.due();
+    for number in 0.. {
+        let at = number * SECOND / Nanos::from(FRAMES_PER_SECOND);
         let mut samples = rider.samples(&simulation, at);
         if at == 0 {
             samples.extend(first_actions(options).iter().map(|action| Sample::action(0, action)));
         }
-        let frame = simulation.frame(at, &samples);
+        let frame = simulation.frame_for(at, &samples, Some(&mut reel));
         if let Err(error) = log.frame(&samples, &frame) {
             tell(error);
         }
-        if !reel.add(&frame) {
+        if !reel.add(&frame) || stop.load(Ordering::Relaxed) {
             break;
         }
     }

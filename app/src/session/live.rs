@@ -12,7 +12,7 @@ use input::devices::{DeviceNote, DeviceState, Devices};
 use input::{Action, Clock, KeyMap, Nanos, RoadLoad, SECOND, Sample, SampleSource};
 use interface::Caption;
 use kiosk::Kiosk;
-use ride::{LogError, Replay, ReplayError, RideFrame, RideLog, Simulation};
+use ride::{FrameTaker, LogError, Replay, ReplayError, RideFrame, RideLog, Simulation};
 use words::{Language, Phrase};
 
 /// Ride in progress.
@@ -153,6 +153,14 @@ impl Live {
     /// # Errors
     /// [`ReplayError`] of a recording that is damaged before its first frame.
     pub fn frame(&mut self) -> Result<Option<RideFrame>, ReplayError> {
+        self.frame_for(None)
+    }
+
+    /// Present frame of the ride, and on the way to it those that `taker` wants, if devices are live.
+    ///
+    /// # Errors
+    /// Those of [`Live::frame`].
+    pub fn frame_for(&mut self, taker: Option<&mut dyn FrameTaker>) -> Result<Option<RideFrame>, ReplayError> {
         let now = self.clock.now();
         self.told.retain(|(until, _)| *until > now);
         if self.end.is_some_and(|end| now >= end) {
@@ -175,7 +183,7 @@ impl Live {
                     samples = passed;
                     self.turned |= turn.is_some();
                 }
-                let frame = simulation.frame(now, &samples);
+                let frame = simulation.frame_for(now, &samples, taker);
                 if let Some(kiosk) = &mut self.kiosk {
                     kiosk.shown(now, &frame);
                     kiosk.take_fault().iter().for_each(tell);

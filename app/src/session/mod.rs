@@ -7,7 +7,6 @@ mod crossing_tests;
 #[cfg(test)]
 #[path = "desk/tests.rs"]
 mod desk_tests;
-pub mod gaps;
 pub mod interrupt;
 pub mod live;
 mod live_told;

@@ -1,10 +1,9 @@
 //! Recorded ride that is shown at the pace at which it was ridden.
 
 use crate::output::say::tell;
-use crate::session::gaps::ShownTimes;
 use input::{Action, Desk, DeskConfig, KeyMap, Nanos, Sample};
 use presentation::Presentation;
-use ride::{Replay, ReplayError, Replayed, RideFrame};
+use ride::{Replay, ReplayError, Replayed, RideFrame, ShownTimes};
 
 /// Recorded ride in progress.
 pub struct RecordedRide {

@@ -1,9 +1,9 @@
-//! The observers of a ride at the times of a film's pictures.
+//! The observers of a ride at the times of a film's pictures: each picture shows the ride as it was at its own time,
+//! whatever the times of the ride's frames, and through the tracked head if there is one.
 
 use crate::error::Error;
 use crate::output::progress;
 use crate::output::say::tell;
-use crate::session::gaps::ShownTimes;
 use crate::session::outside_look::OutsideLook;
 use crate::session::start::{PRESENTATION, recorded};
 use crate::session::tour_ride::TourMark;
@@ -13,7 +13,7 @@ use input::{Action, Nanos, SECOND};
 use interface::Caption;
 use presentation::Presentation;
 use render::display::Development;
-use ride::{ReplayError, Replayed, RideFrame};
+use ride::{FrameTaker, ReplayError, Replayed, RideFrame, ShownTimes};
 use scene::{Scene, Start};
 use std::path::Path;
 use std::sync::Arc;
@@ -61,6 +61,14 @@ pub struct Told {
     pub marks: Vec<TourMark>,
 }
 
+impl Moment {
+    /// True if a picture of the other moment would be the same. What is told is only the same as itself.
+    fn is_as(&self, other: &Self) -> bool {
+        let untold = self.told.is_none() && other.told.is_none();
+        untold && (self.gaze, self.own_s, self.look) == (other.gaze, other.own_s, other.look)
+    }
+}
+
 impl Look {
     /// Look of a presentation, with its camera outside of the eye.
     pub fn of(shown: &Presentation, outside: Option<OutsideView>) -> Self {
@@ -102,7 +110,7 @@ pub fn reel(
     reel.follows = !is_given;
     let mut differed = false;
     loop {
-        match replay.next_frame() {
+        match replay.next_frame_for(Some(&mut reel)) {
             Ok(Some(Replayed { frame, difference })) => {
                 if let (Some(difference), false) = (difference, differed) {
                     differed = true;
@@ -132,13 +140,13 @@ pub fn reel(
     Ok(Ridden { scene, speed_of_light, reel })
 }
 
-/// Observer at the time of each picture of a film. Memory is taken for each frame of the ride, not for each picture.
+/// Observer at the time of each picture of a film, taken on the way from one frame of a ride to the next. Memory is
+/// taken for what differs: pictures of a ride that waits share one moment.
 pub struct Reel {
     /// Moments of the ride, each with its number of pictures.
     moments: Vec<(Moment, u64)>,
     /// Number of pictures so far.
     count: u64,
-    last: Option<Moment>,
     times: ShownTimes,
     frames_per_second: f64,
     end: Nanos,
@@ -147,6 +155,8 @@ pub struct Reel {
     outside: OutsideLook,
     /// True if the rider's actions change it.
     follows: bool,
+    /// Number of actions that have been performed since the ride's last frame.
+    acted: usize,
 }
 
 impl Reel {
@@ -156,53 +166,61 @@ impl Reel {
         Self {
             moments: Vec::new(),
             count: 0,
-            last: None,
             times: ShownTimes::default(),
             frames_per_second,
             end,
             shown,
             outside: OutsideLook::default(),
             follows: true,
+            acted: 0,
         }
     }
 
     /// Time at which the next picture is due.
     pub fn due(&self) -> Nanos {
-        (self.count as f64 * SECOND as f64 / self.frames_per_second) as Nanos
+        self.due_after(self.count)
     }
 
-    /// Takes a frame; pictures that were due before it show the frame before. Returns false once the film is full.
+    fn due_after(&self, pictures: u64) -> Nanos {
+        (pictures as f64 * SECOND as f64 / self.frames_per_second) as Nanos
+    }
+
+    /// Takes note of a frame of the ride, whose pictures have been taken. Returns false once the film is full.
     pub fn add(&mut self, frame: &RideFrame) -> bool {
-        self.add_told(frame, |_| None)
+        self.follow(frame);
+        self.acted = 0;
+        self.due() < self.end
     }
 
-    /// Takes a frame, with what is written over it. Returns false once the film is full.
+    /// Takes a picture of a frame that is due, with what is written over it. Returns false once the film is full.
     pub fn add_told(&mut self, frame: &RideFrame, told: impl FnOnce(&Presentation) -> Option<Told>) -> bool {
-        for action in frame.controls.actions.iter().filter(|action| self.follows && Presentation::repeats(action)) {
+        let moment = self.follow(frame);
+        let told = told(&self.shown).map(Arc::new);
+        self.put(Moment { told, ..moment });
+        self.acted = 0;
+        self.due() < self.end
+    }
+
+    /// Performs the frame's actions that decide what is shown and have not been performed, and returns its moment.
+    fn follow(&mut self, frame: &RideFrame) -> Moment {
+        let actions = frame.controls.actions.get(self.acted..).unwrap_or_default();
+        self.acted = frame.controls.actions.len();
+        for action in actions.iter().filter(|action| self.follows && Presentation::repeats(action)) {
             match action {
                 Action::Orbit { turn_rad, closer } => self.outside.orbit(*turn_rad, *closer),
                 action => drop(self.shown.act(action)),
             }
         }
-        let (gaze, outside) = self.outside.follow(&frame.gaze, &self.shown);
-        let own_s = frame.vehicle.odometer().own_s;
-        let newest =
-            Moment { gaze, own_s, look: Look::of(&self.shown, outside), told: told(&self.shown).map(Arc::new) };
-        let at = self.times.shown(frame.record.at);
-        self.put(self.last.clone().unwrap_or_else(|| newest.clone()), |due, end| due < at.min(end));
-        self.put(newest.clone(), |due, end| due == at && due < end);
-        self.last = Some(newest);
-        self.due() < self.end
+        let (gaze, outside) = self.outside.follow(&frame.head_gaze(), &self.shown);
+        Moment { gaze, own_s: frame.vehicle.odometer().own_s, look: Look::of(&self.shown, outside), told: None }
     }
 
-    /// Adds pictures of a moment as long as `wanted` says so of the time at which one is due, and of the film's end.
-    fn put(&mut self, moment: Moment, wanted: impl Fn(Nanos, Nanos) -> bool) {
-        let before = self.count;
-        while wanted(self.due(), self.end) {
-            self.count += 1;
-        }
-        if self.count > before {
-            self.moments.push((moment, self.count - before));
+    /// Adds a picture of a moment.
+    fn put(&mut self, moment: Moment) {
+        self.count += 1;
+        match self.moments.last_mut() {
+            Some((last, pictures)) if last.is_as(&moment) => *pictures += 1,
+            _ => self.moments.push((moment, 1)),
         }
     }
 
@@ -238,22 +256,36 @@ impl Reel {
     }
 }
 
+impl FrameTaker for Reel {
+    fn wanted(&mut self, at: Nanos) -> Vec<Nanos> {
+        let shown = self.times.shown(at);
+        let due = (self.count..).map(|pictures| self.due_after(pictures));
+        due.take_while(|due| *due <= shown && *due < self.end).map(|due| self.times.recorded(due, at)).collect()
+    }
+
+    fn take(&mut self, frame: RideFrame) {
+        let moment = self.follow(&frame);
+        self.put(moment);
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    //! Law: a film has as many pictures as the ride has time, and shows in each the newest frame before it; the work is
+    //! Law: a film has as many pictures as the ride has time, and shows in each the ride at its own time; the work is
     //! bounded by the frames of the ride, whatever times they bear.
     #![allow(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
     use super::*;
     use glam::DVec3;
-    use input::{DeskConfig, VehicleKind};
+    use input::{DeskConfig, KeyboardKey, Sample, VehicleKind};
     use ride::{LightSpeed, RideStart, Setup, Simulation, VehicleSettings};
-    use scene::collision::Collision;
+    use scene::OpenPlane;
     use std::sync::Arc;
 
     const YEAR: Nanos = 365 * 24 * 3600 * SECOND;
 
-    fn reel(frames_per_second: f64, seconds: f64, times: &[Nanos]) -> Reel {
+    /// Film of a flight with these samples and frame times.
+    fn filmed(frames_per_second: f64, seconds: f64, times: &[Nanos], samples: &[Sample]) -> Reel {
         let setup = Setup {
             light_speed: LightSpeed::OLD_TOWN,
             kind: VehicleKind::Fly,
@@ -261,13 +293,14 @@ mod tests {
             vehicle: VehicleSettings::default(),
             desk: DeskConfig::default(),
         };
-        let lattice = built_in::lattice::Lattice::default().build();
-        let mut ride = Simulation::new(setup, Arc::new(Collision::new(&lattice).unwrap())).unwrap();
+        let mut ride = Simulation::new(setup, Arc::new(OpenPlane)).unwrap();
         let mut reel = Reel::new(frames_per_second, seconds, Presentation::default());
+        let mut before = None;
         for at in times {
-            let mut frame = ride.frame(*at, &[]);
-            // The place tells the frame.
-            frame.gaze.observer.event.ct = *at as f64;
+            let due = samples.iter().filter(|sample| before < Some(sample.at) && sample.at <= *at);
+            let due: Vec<Sample> = due.cloned().collect();
+            before = Some(*at);
+            let frame = ride.frame_for(*at, &due, Some(&mut reel));
             if !reel.add(&frame) {
                 break;
             }
@@ -275,37 +308,84 @@ mod tests {
         reel
     }
 
-    /// Recorded times of the frames that the pictures show.
-    fn shown(reel: Reel) -> Vec<u64> {
-        reel.pictures().map(|moment| moment.gaze.observer.event.ct as u64).collect()
+    fn reel(frames_per_second: f64, seconds: f64, times: &[Nanos]) -> Reel {
+        filmed(frames_per_second, seconds, times, &[])
+    }
+
+    /// Own times that the pictures show, seconds: at rest those of the ride, less the time for which the world waited.
+    #[track_caller]
+    fn assert_shows(reel: Reel, expected: &[f64]) {
+        let shown: Vec<f64> = reel.pictures().map(|moment| moment.own_s).collect();
+        let differs = |(shown, expected): (&f64, &f64)| (shown - expected).abs() > 1e-7;
+        assert!(
+            shown.len() == expected.len() && !shown.iter().zip(expected).any(differs),
+            "{shown:?} for {expected:?}"
+        );
     }
 
     #[test]
-    fn each_picture_shows_the_newest_frame_before_it() {
+    fn each_picture_shows_its_own_time() {
         let times = [0, SECOND / 4, SECOND / 2, SECOND];
-        assert_eq!(shown(reel(4.0, f64::INFINITY, &times)), [0, SECOND / 4, SECOND / 2, SECOND / 2, SECOND]);
-        assert_eq!(shown(reel(2.0, f64::INFINITY, &times)), [0, SECOND / 2, SECOND]);
-        assert_eq!(shown(reel(4.0, 0.5, &times)), [0, SECOND / 4]);
+        assert_shows(reel(8.0, f64::INFINITY, &times[..3]), &[0.0, 0.125, 0.25, 0.375, 0.5]);
+        assert_shows(reel(8.0, 0.3, &times), &[0.0, 0.125, 0.25]);
+        // The world waits for a late frame, but for the last quarter of a second.
+        let waited = 0.5 + 1.0 / 240.0;
+        assert_shows(reel(8.0, 1.0, &times), &[0.0, 0.125, 0.25, 0.375, 0.5, waited, waited, 0.625]);
+        assert_shows(reel(2.0, f64::INFINITY, &times), &[0.0, 0.5, 0.75]);
+    }
+
+    #[test]
+    fn a_film_is_as_smooth_as_its_own_rate_whatever_that_of_the_ride() {
+        let thrust = [Sample::key(SECOND / 10, KeyboardKey::W, true)];
+        let film = |ride: u64| {
+            let times: Vec<Nanos> = (0..=ride).map(|frame| frame * SECOND / ride).collect();
+            filmed(120.0, f64::INFINITY, &times, &thrust)
+        };
+        let gazes: Vec<Gaze> = film(30).pictures().map(|moment| moment.gaze).collect();
+        let direct: Vec<Gaze> = film(120).pictures().map(|moment| moment.gaze).collect();
+        assert_eq!(gazes.len(), 121);
+        assert!(gazes == direct, "the frames of the ride are seen in the film");
+        let steps: Vec<f64> = gazes[40..]
+            .windows(2)
+            .map(|two| -(two[1].observer.event.position.z - two[0].observer.event.position.z))
+            .collect();
+        assert!(
+            steps.iter().all(|step| *step > 0.0)
+                && steps.windows(3).all(|three| { (three[2] - 2.0 * three[1] + three[0]).abs() < 3e-3 * three[1] }),
+            "{steps:?}"
+        );
+    }
+
+    #[test]
+    fn what_a_rider_changes_is_shown_from_its_own_time_on() {
+        let press = |key, at| [Sample::key(at, key, true), Sample::key(at + 1, key, false)];
+        let toggles = press(KeyboardKey::Y, SECOND / 3);
+        let times = [0, SECOND / 4, SECOND / 2];
+        let reel = filmed(100.0, f64::INFINITY, &times, &toggles);
+        let outside: Vec<bool> = reel.pictures().map(|moment| moment.look.outside.is_some()).collect();
+        assert_eq!((outside.len(), outside.iter().position(|outside| *outside)), (51, Some(34)));
+        assert!(outside[34..].iter().all(|outside| *outside));
     }
 
     #[test]
     fn a_year_between_two_frames_is_a_second_of_film() {
         let reel = reel(1000.0, f64::INFINITY, &[0, YEAR, 2 * YEAR]);
-        assert_eq!((reel.len(), reel.moments.len()), (2001, 5));
-        assert_eq!(reel.last().unwrap().gaze.observer.event.ct as u64, 2 * YEAR);
+        assert_eq!(reel.len(), 2001);
+        // The world waits for three quarters of each second, in one moment.
+        assert!((480..=510).contains(&reel.moments.len()), "{}", reel.moments.len());
+        assert!((reel.last().unwrap().own_s - 0.5).abs() < 1e-7);
         assert!(reel.times.sentence().unwrap().contains("2 gaps"));
     }
 
     #[test]
     fn pictures_are_taken_evenly() {
-        let times: Vec<Nanos> = (0..100).map(|frame| frame * SECOND).collect();
+        let times: Vec<Nanos> = (0..=400).map(|frame| frame * SECOND / 4).collect();
         let evenly = |rate: f64, count| {
-            let reel = reel(rate, f64::INFINITY, &times);
-            let moments: Vec<u64> = reel.evenly(count).map(|moment| moment.gaze.observer.event.ct as u64).collect();
-            moments.into_iter().map(|at| at / SECOND).collect::<Vec<_>>()
+            let reel = reel(rate, 99.5, &times);
+            reel.evenly(count).map(|moment| moment.own_s.round() as u64).collect::<Vec<_>>()
         };
         assert_eq!(evenly(1.0, 5), [10, 30, 50, 70, 90]);
         assert_eq!(evenly(1.0, 1000).len(), 100);
-        assert_eq!(evenly(10.0, 5), [9, 29, 49, 69, 89]);
+        assert_eq!(evenly(10.0, 5), [10, 30, 50, 70, 90]);
     }
 }

@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 33] = [
+const PLAN: [(&str, &[&str]); 34] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -39,6 +39,7 @@ const PLAN: [(&str, &[&str]); 33] = [
     ("instruments", &["physics", "ride", "scene"]),
     ("kiosk", &["input", "ride"]),
     ("tours", &["input", "regular_file", "ride", "scene", "view"]),
+    ("camera_paths", &["physics", "regular_file", "scene", "view"]),
     ("presentation", &["input", "render", "view", "words"]),
     ("interface", &["hardware", "input", "presentation", "render", "ride", "shaders", "view", "words"]),
     ("probe", &["physics", "ride"]),

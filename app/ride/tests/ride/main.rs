@@ -1,6 +1,7 @@
 //! Tests of the crate `ride`, one module a subject.
 
 mod assist;
+mod frames_between;
 mod log;
 mod old_recordings;
 mod random_rides;

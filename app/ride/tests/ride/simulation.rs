@@ -21,7 +21,7 @@ use ride::{
 };
 use scene::OpenPlane;
 
-fn setup(kind: VehicleKind) -> Setup {
+pub(super) fn setup(kind: VehicleKind) -> Setup {
     Setup {
         light_speed: LightSpeed::OLD_TOWN,
         kind,
@@ -31,12 +31,12 @@ fn setup(kind: VehicleKind) -> Setup {
     }
 }
 
-fn simulation(kind: VehicleKind) -> Simulation {
+pub(super) fn simulation(kind: VehicleKind) -> Simulation {
     Simulation::new(setup(kind), Arc::new(OpenPlane)).unwrap()
 }
 
 /// Samples of a ride by keys that brakes, switches to flying, slows time down and comes back.
-fn busy_ride() -> Vec<Sample> {
+pub(super) fn busy_ride() -> Vec<Sample> {
     let tenth = |n: u64| n * SECOND / 10;
     vec![
         Sample::key(tenth(1), KeyboardKey::W, true),
@@ -58,7 +58,11 @@ fn busy_ride() -> Vec<Sample> {
 }
 
 /// Frames at these times, each given the samples up to then.
-fn frames(simulation: &mut Simulation, samples: &[Sample], times: impl IntoIterator<Item = Nanos>) -> Vec<RideFrame> {
+pub(super) fn frames(
+    simulation: &mut Simulation,
+    samples: &[Sample],
+    times: impl IntoIterator<Item = Nanos>,
+) -> Vec<RideFrame> {
     let mut samples = samples.iter().peekable();
     let mut ride = |at| {
         let mut due = Vec::new();
@@ -71,7 +75,7 @@ fn frames(simulation: &mut Simulation, samples: &[Sample], times: impl IntoItera
 }
 
 /// Times of sixty frames a second for so many seconds, none of them quite regular.
-fn times(seconds: u64) -> impl Iterator<Item = Nanos> {
+pub(super) fn times(seconds: u64) -> impl Iterator<Item = Nanos> {
     (0..=60 * seconds).map(|n| n * SECOND / 60 + n * 7919 % 2_000_000)
 }
 
@@ -123,7 +127,7 @@ fn the_same_ride_has_the_same_bits() {
 }
 
 /// The busy ride, of a rider who looks round with keys and the mouse.
-fn looking_ride() -> Vec<Sample> {
+pub(super) fn looking_ride() -> Vec<Sample> {
     let tenth = |n: u64| n * SECOND / 10;
     let drag = MouseEvent::Button { button: MouseButton::Left, pressed: true };
     let looks = [
@@ -340,7 +344,7 @@ fn any_bytes_from_any_device_make_a_finite_ride() {
 }
 
 /// Recording of the ride in memory.
-fn entries(setup: &Setup, samples: &[Sample]) -> Vec<RecordingEntry> {
+pub(super) fn entries(setup: &Setup, samples: &[Sample]) -> Vec<RecordingEntry> {
     let mut simulation = Simulation::new(setup.clone(), Arc::new(OpenPlane)).unwrap();
     let mut entries = Vec::new();
     let mut left = samples;

@@ -6,12 +6,14 @@
 //! added.
 
 mod animated;
+mod camera_motion;
 mod mesh_motion;
 mod observed_body;
 mod track;
 mod uniform;
 
 pub use animated::{Animated, Ball, ChainLink, Keyed, Pose};
+pub use camera_motion::{CameraMotion, CameraPose};
 pub use mesh_motion::Motion;
 pub use observed_body::{ObservedBody, SeenPoint};
 pub use track::{KeyFault, Track, TrackKeys};

@@ -8,12 +8,14 @@
 use ::gltf::json;
 use ::gltf::json::validation::Checked;
 use glam::DVec3;
+use scene::motion::CameraMotion;
 use scene::{Scene, Start, ViewCamera};
+use std::sync::Arc;
 
 use super::document::Document;
 use super::extras::SceneExtras;
 use super::floor;
-use super::nodes::NodePlacement;
+use super::nodes::{NodeMotion, NodePlacement};
 use super::notices::{Notices, Part};
 use super::start_pose::at_start;
 
@@ -77,11 +79,22 @@ pub(super) fn cameras(document: &Document<'_>, placements: &[NodePlacement], not
                 eye_height_m: 0.0,
                 field_of_view_rad: fov.filter(|fov| (0.01..3.0).contains(fov)),
             },
+            motion: motion(placement),
         });
     }
     // The view that a file opens on is that of its first perspective camera.
     found.sort_by_key(|camera| camera.start.field_of_view_rad.is_none());
     found
+}
+
+/// Motion of a camera that hangs on what keys move.
+fn motion(placement: &NodePlacement) -> Option<CameraMotion> {
+    match &placement.motion {
+        Some(NodeMotion::Animated { animated, body_from_node }) => {
+            Some(CameraMotion::new(Arc::clone(animated), *body_from_node))
+        }
+        _ => None,
+    }
 }
 
 /// Start of an observer, and the speed of light in m/s that suits the size, if the file does not say where to start.

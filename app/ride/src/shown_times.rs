@@ -4,7 +4,7 @@
 use input::{Nanos, SECOND};
 
 /// Longest time between two frames that is shown as it was.
-pub const LONGEST_GAP: Nanos = 10 * SECOND;
+const LONGEST_GAP: Nanos = 10 * SECOND;
 /// Time for which a longer gap is shown.
 const SHOWN_GAP: Nanos = SECOND;
 
@@ -28,6 +28,12 @@ impl ShownTimes {
         }
         self.shown += if gap > LONGEST_GAP { SHOWN_GAP } else { gap };
         self.shown
+    }
+
+    /// Recorded time of what is shown at `shown`, at or before the newest frame, whose recorded time is `at`. Of a long
+    /// gap the last part is shown, at its own pace: the ride waited before.
+    pub fn recorded(&self, shown: Nanos, at: Nanos) -> Nanos {
+        at.saturating_sub(self.shown.saturating_sub(shown))
     }
 
     /// Sentence about the gaps, if there were any.
@@ -69,6 +75,19 @@ mod tests {
         assert!(told.starts_with("2 gaps") && told.contains("31536000.0 s"), "{told}");
         // The first frame, too, and one that cannot be.
         assert_eq!(ShownTimes::default().shown(Nanos::MAX), SECOND);
+    }
+
+    #[test]
+    fn what_is_shown_between_two_frames_has_its_own_time() {
+        let mut times = ShownTimes::default();
+        for at in [SECOND, 3 * SECOND] {
+            assert_eq!(times.shown(at), at);
+            assert_eq!(times.recorded(at - SECOND / 2, at), at - SECOND / 2);
+        }
+        // Of a year, the last second.
+        assert_eq!(times.shown(YEAR), 4 * SECOND);
+        let recorded = [3 * SECOND, 7 * SECOND / 2, 4 * SECOND].map(|shown| times.recorded(shown, YEAR));
+        assert_eq!(recorded, [YEAR - SECOND, YEAR - SECOND / 2, YEAR]);
     }
 
     #[test]
