@@ -3,6 +3,7 @@
 use crate::commands::calibrating_error::CalibratingError;
 use crate::session::preferences::PreferencesError;
 use crate::session::scenes::SceneError;
+use camera_paths::CameraPathError;
 use filming::{MakerError, SinkError};
 use hardware::{SetUpError, TrackerError};
 use headset::HeadsetError;
@@ -166,6 +167,15 @@ pub enum Error {
         number: u64,
         /// Number of pictures.
         count: u64,
+    },
+    /// A camera path that cannot be flown.
+    #[error(transparent)]
+    Path(#[from] CameraPathError),
+    /// A scene none of whose cameras moves, or not the one that was named.
+    #[error("--path camera: {scene} has no animated camera of that name; `rapidity check` lists its cameras")]
+    NoMovingCamera {
+        /// Name of the scene.
+        scene: String,
     },
     /// A part of a farm that the environment does not name.
     #[error(transparent)]

@@ -10,9 +10,9 @@
 use crate::canvas::{Canvas, Submitted, Watcher};
 use crate::error::Error;
 use crate::session::live::Live;
-use crate::session::outside_look::OutsideLook;
 use crate::session::tracker;
 use crate::stage_times::StageTimes;
+use filming::OutsideLook;
 use glam::DVec3;
 use input::{Action, HeadState, SECOND};
 use presentation::{Latency, Presentation};

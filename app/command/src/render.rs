@@ -45,6 +45,14 @@ pub struct RenderOptions {
     #[arg(long, value_name = "R.mcap", value_parser = values::recording(), help_heading = "Observer")]
     #[arg(conflicts_with_all = ["speed_of_light", "position", "celerity", "beta"])]
     pub replay: Option<PathBuf>,
+    /// Move the camera along the path of this file (docs/FILMS.md says what it may hold), or with the word camera along
+    /// the animation of the scene's own camera.
+    ///
+    /// The path says where the camera is at each moment of its own clock, how fast, and where it looks; a film is as
+    /// long as its path.
+    #[arg(long, value_name = "PATH.toml", value_parser = values::camera_path(), help_heading = "Observer")]
+    #[arg(conflicts_with_all = ["replay", "position", "look", "up", "celerity", "beta", "display"])]
+    pub path: Option<PathBuf>,
     /// Options of films and numbered pictures.
     #[command(flatten)]
     pub film: FilmOptions,
@@ -137,7 +145,7 @@ impl RenderOptions {
         if self.room.display.is_some() && self.replay.is_some() {
             return Err("--replay is not drawn for --display yet; leave one out".to_owned());
         }
-        self.film.check(&self.out, self.replay.is_some())?;
+        self.film.check(&self.out, self.replay.is_some() || self.path.is_some())?;
         if self.room.display.is_none() {
             self.projection.check(self.picture.size)?;
         } else if self.projection != ProjectionOptions::default() {

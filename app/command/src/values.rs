@@ -153,6 +153,14 @@ pub(super) fn film() -> impl TypedValueParser<Value = PathBuf> {
     file(&["mp4"], ".mp4")
 }
 
+/// Parser of a camera path's file name, or of the word for the scene's own camera.
+pub(super) fn camera_path() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(|path| {
+        let known = has_extension(&path, &["toml"]) || path == Path::new("camera");
+        if known { Ok(path) } else { Err(ValueError::Extension { allowed: ".toml, or be the word camera" }) }
+    })
+}
+
 /// Parser of a recording's file name.
 pub(super) fn recording() -> impl TypedValueParser<Value = PathBuf> {
     file(&["mcap"], ".mcap")

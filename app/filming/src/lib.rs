@@ -7,11 +7,15 @@
 mod layout;
 mod maker;
 mod moment;
+mod outside_look;
+mod reel;
 mod shoot;
 mod sink;
 
 pub use layout::StereoLayout;
 pub use maker::{MakerError, MakerOptions, PictureMaker, Taking, TracedPart};
-pub use moment::FilmView;
+pub use moment::{FilmView, Look, Moment};
+pub use outside_look::OutsideLook;
+pub use reel::Reel;
 pub use shoot::{DueFrame, Onlooker, Shooting};
 pub use sink::{FrameFile, FramePictures, PictureSink, SinkError, eye_names, eye_paths, film_tags};

@@ -1,7 +1,64 @@
 //! What a picture shows, and how it is developed.
 
+use presentation::Presentation;
 use render::display::Development;
+use std::sync::Arc;
 use view::{Effects, Gaze, OutsideView, Shot};
+
+/// How a moment is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// Effects of relativity.
+    pub effects: Effects,
+    /// Vertical field of view, degrees.
+    pub fov_deg: f64,
+    /// Development of radiance into the picture.
+    pub development: Development,
+    /// Camera outside of the eye.
+    pub outside: Option<OutsideView>,
+}
+
+/// Observer of one picture, its time by the observer's own clock, and how it is shown. `T`: what is written over it.
+#[derive(Debug)]
+pub struct Moment<T = ()> {
+    /// Observer and direction of view.
+    pub gaze: Gaze,
+    /// Proper time of the observer, seconds.
+    pub own_s: f64,
+    /// How it is shown.
+    pub look: Look,
+    /// What is written over it.
+    pub told: Option<Arc<T>>,
+}
+
+impl<T> Clone for Moment<T> {
+    fn clone(&self) -> Self {
+        Self { told: self.told.clone(), ..*self }
+    }
+}
+
+impl<T> Moment<T> {
+    /// True if a picture of the other moment would be the same. What is told is only the same as itself.
+    pub fn is_as(&self, other: &Self) -> bool {
+        let untold = self.told.is_none() && other.told.is_none();
+        untold && (self.gaze, self.own_s, self.look) == (other.gaze, other.own_s, other.look)
+    }
+
+    /// View of the picture. `elapsed_s`: own time since the picture before, seconds; `None` for an eye that adapts at
+    /// once.
+    pub fn view(&self, elapsed_s: Option<f64>) -> FilmView {
+        let Look { effects, fov_deg, development, outside } = self.look;
+        FilmView { gaze: self.gaze, effects, fov_deg, development, outside, elapsed_s }
+    }
+}
+
+impl Look {
+    /// Look of a presentation, with its camera outside of the eye.
+    pub fn of(shown: &Presentation, outside: Option<OutsideView>) -> Self {
+        let Presentation { effects, fov_deg, development, .. } = *shown;
+        Self { effects, fov_deg, development, outside }
+    }
+}
 
 /// Eye, direction and look of one picture.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,10 +5,10 @@ use crate::error::Error;
 use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::interrupt::{interrupted, interruption};
-use crate::session::reel::{Moment, Told};
+use crate::session::reel::Told;
 use command::{DialOptions, PictureOptions, map_scale_of_stills};
 use filming::{
-    DueFrame, FilmView, FrameFile, FramePictures, MakerOptions, Onlooker, PictureMaker, PictureSink, Shooting,
+    DueFrame, FilmView, FrameFile, FramePictures, MakerOptions, Moment, Onlooker, PictureMaker, PictureSink, Shooting,
     StereoLayout,
 };
 use image::RgbaImage;
@@ -114,28 +114,18 @@ impl<'gpu> Cameraman<'gpu> {
         Self { titles: Some(titles), ..self }
     }
 
-    fn view(&self, moment: &Moment, elapsed_s: Option<f64>) -> FilmView {
-        let Moment { gaze, look, .. } = *moment;
-        // Rays all end at the eye.
-        let outside = look.outside.filter(|_| self.maker.renderer().is_some());
-        let (effects, fov_deg, development) = (look.effects, look.fov_deg, look.development);
-        FilmView { gaze, effects, fov_deg, development, outside, elapsed_s }
-    }
-
-    fn layout(&self) -> Option<StereoLayout> {
-        self.equipment.stereo.map(|(_, layout)| layout)
-    }
-
     /// Takes the picture of a moment, and writes it as PNG or its light as OpenEXR.
     ///
     /// # Errors
     /// A lost device, a place that cannot be written, or [`Error::Interrupted`].
-    pub fn still(&mut self, moment: &Moment, path: &Path, kind: FrameFile) -> Result<(), Error> {
-        let view = self.view(moment, None);
+    pub fn still(&mut self, moment: &Moment<Told>, path: &Path, kind: FrameFile) -> Result<(), Error> {
+        let mut view = moment.view(None);
+        // Rays all end at the eye.
+        view.outside = view.outside.filter(|_| self.maker.renderer().is_some());
         let pending = self.maker.submit(self.gpu, &view)?;
         let bar = tile_bar(self.maker.tiles());
         let tile_done = || bar.inc(1);
-        let layout = self.layout();
+        let layout = self.equipment.layout();
         let (pictures, interrupted) = match kind {
             FrameFile::Png => {
                 let taking = self.maker.begin(self.gpu, &view, pending, &tile_done)?;
@@ -179,97 +169,50 @@ impl<'gpu> Cameraman<'gpu> {
     /// A lost device, an encoder that fails, or a place that cannot be written.
     pub fn film(
         &mut self,
-        moments: impl Iterator<Item = Result<(u64, Moment), Error>>,
+        moments: impl Iterator<Item = Result<(u64, Moment<Told>), Error>>,
         count: u64,
         out: FilmOut<'_>,
     ) -> Result<(), Error> {
-        let traces = self.maker.renderer().is_none();
-        let stop = if traces { interruption() } else { interrupted() };
-        if traces && stop.load(Ordering::Relaxed) {
+        // An interruption that ended the ride does not end its film; that of tracing counts from the beginning.
+        if self.maker.renderer().is_some() {
+            interrupted();
+        }
+        let mut roll = FilmRoll::open(self.gpu, self.equipment, self.size, out, count)?;
+        let shot = self.shoot(moments, &mut roll);
+        roll.finish(shot)
+    }
+
+    /// Adds a picture per moment to a film.
+    ///
+    /// # Errors
+    /// A lost device, or [`Error::Interrupted`] before the first traced picture was finished.
+    pub fn shoot(
+        &mut self,
+        moments: impl Iterator<Item = Result<(u64, Moment<Told>), Error>>,
+        roll: &mut FilmRoll<'_>,
+    ) -> Result<(), Error> {
+        if self.maker.renderer().is_none() && interruption().load(Ordering::Relaxed) {
             return Err(Error::Interrupted);
         }
-        let (sink, kind, name) = self.sink(out)?;
-        let mut watch = FilmWatch {
-            gpu: self.gpu,
-            titles: self.titles.take(),
-            bar: progress::bar(name.clone(), count),
-            tiles: tile_bar(self.maker.tiles()),
-            lines: !std::io::IsTerminal::is_terminal(&std::io::stderr()),
-            done: 0,
-            count,
-        };
-        // Numbered pictures are exposed by themselves, so that each is the same whoever draws it.
-        let alone = matches!(out, FilmOut::Numbered(..));
+        let drawn = self.maker.renderer().is_some();
         let mut before = None;
+        let alone = roll.alone;
         let frames = moments.map(|moment| {
             let (number, mut moment) = moment?;
             let elapsed_s = before.replace(moment.own_s).map(|before| moment.own_s - before).filter(|_| !alone);
-            let told = moment.told.take();
-            Ok::<_, Error>((number, elapsed_s, moment, told))
+            // Rays all end at the eye.
+            moment.look.outside = moment.look.outside.filter(|_| drawn);
+            Ok(DueFrame { number, view: moment.view(elapsed_s), told: moment.told })
         });
-        let drawn = self.maker.renderer().is_some();
-        let frames = frames.map(|frame| {
-            let (number, elapsed_s, moment, told) = frame?;
-            let Moment { gaze, look, .. } = moment;
-            let outside = look.outside.filter(|_| drawn);
-            let (effects, fov_deg, development) = (look.effects, look.fov_deg, look.development);
-            let view = FilmView { gaze, effects, fov_deg, development, outside, elapsed_s };
-            Ok(DueFrame { number, view, told })
-        });
-        let layout = self.layout();
-        let mut shooting = Shooting { gpu: self.gpu, maker: &mut self.maker, layout, kind, sink: &sink, stop: &stop };
-        let outcome = shooting.shoot(frames, &mut watch);
-        watch.bar.finish_and_clear();
+        roll.watch.titles = self.titles.take();
+        roll.watch.tiles = tile_bar(self.maker.tiles());
+        let (layout, stop) = (self.equipment.layout(), interruption());
+        let FilmRoll { sink, kind, watch, .. } = roll;
+        let mut shooting = Shooting { gpu: self.gpu, maker: &mut self.maker, layout, kind: *kind, sink, stop: &stop };
+        let outcome = shooting.shoot(frames, watch);
         watch.tiles.finish_and_clear();
         self.titles = watch.titles.take();
-        let done = match outcome {
-            Err(Error::Interrupted) if traces => {
-                // The encoder of a film without pictures has nothing to tell but a complaint.
-                let _ = sink.finish();
-                return Err(Error::Interrupted);
-            }
-            outcome => outcome?,
-        };
-        let was_stopped = stop.load(Ordering::Relaxed);
-        if done == 0 && was_stopped && traces {
-            let _ = sink.finish();
-            return Err(Error::Interrupted);
-        }
-        let written = sink.finish()?;
-        if done < count && was_stopped {
-            tell(format_args!("interrupted: the film ends after {done} of {count} pictures"));
-        }
-        for written in written {
-            match written {
-                Written::Film(path) => tell(format_args!("wrote {}", path.display())),
-                Written::Pictures(folder) => tell(format_args!(
-                    "wrote numbered pictures into {}, because ffmpeg is not installed; install it to get a film",
-                    folder.display()
-                )),
-            }
-        }
-        if alone {
-            tell(format_args!("wrote {done} pictures as {name}"));
-        }
-        if done < count && !was_stopped { Err(Error::CutShort { done, count }) } else { Ok(()) }
-    }
-
-    /// Place of the pictures, their kind, and its name.
-    fn sink(&self, out: FilmOut<'_>) -> Result<(PictureSink, FrameFile, String), Error> {
-        let layout = self.layout();
-        match out {
-            FilmOut::Film(path, codec, frames_per_second) => {
-                let size = layout.map_or(self.size, |layout| layout.size(self.size));
-                let tags = filming::film_tags(self.equipment.projection, layout);
-                let paths = filming::eye_paths(path, layout);
-                let sink = PictureSink::films(&paths, size, frames_per_second, FilmForm { codec, tags })?;
-                Ok((sink, FrameFile::Png, path.display().to_string()))
-            }
-            FilmOut::Numbered(name, kind) => {
-                let sink = PictureSink::numbered(filming::eye_names(name, layout));
-                Ok((sink, kind, name.pattern().display().to_string()))
-            }
-        }
+        outcome.map(drop)
     }
 
     /// Says how the picture was cut, if its map could not be as fine as was wanted, and if it is more than a pixel
@@ -297,6 +240,98 @@ impl<'gpu> Cameraman<'gpu> {
                 stats.texels_per_pixel
             ));
         }
+    }
+}
+
+impl Equipment {
+    fn layout(&self) -> Option<StereoLayout> {
+        self.stereo.map(|(_, layout)| layout)
+    }
+}
+
+/// Film on its way into its files.
+pub struct FilmRoll<'gpu> {
+    sink: PictureSink,
+    kind: FrameFile,
+    /// Place of the pictures, for messages.
+    name: String,
+    /// True if each picture is exposed by itself, so that it is the same whoever draws it: numbered pictures.
+    alone: bool,
+    watch: FilmWatch<'gpu>,
+}
+
+impl<'gpu> FilmRoll<'gpu> {
+    /// Opens the files of a film of `count` pictures of `size` pixels for each eye.
+    ///
+    /// # Errors
+    /// An encoder that cannot be started.
+    pub fn open(
+        gpu: &'gpu Gpu,
+        equipment: Equipment,
+        size: [u32; 2],
+        out: FilmOut<'_>,
+        count: u64,
+    ) -> Result<Self, Error> {
+        let layout = equipment.layout();
+        let (sink, kind, name) = match out {
+            FilmOut::Film(path, codec, frames_per_second) => {
+                let size = layout.map_or(size, |layout| layout.size(size));
+                let tags = filming::film_tags(equipment.projection, layout);
+                let paths = filming::eye_paths(path, layout);
+                let sink = PictureSink::films(&paths, size, frames_per_second, FilmForm { codec, tags })?;
+                (sink, FrameFile::Png, path.display().to_string())
+            }
+            FilmOut::Numbered(name, kind) => {
+                let sink = PictureSink::numbered(filming::eye_names(name, layout));
+                (sink, kind, name.pattern().display().to_string())
+            }
+        };
+        let watch = FilmWatch {
+            gpu,
+            titles: None,
+            bar: progress::bar(name.clone(), count),
+            tiles: ProgressBar::hidden(),
+            lines: !std::io::IsTerminal::is_terminal(&std::io::stderr()),
+            done: 0,
+            count,
+        };
+        Ok(Self { sink, kind, name, alone: matches!(out, FilmOut::Numbered(..)), watch })
+    }
+
+    /// Completes the files after `shot`, the outcome of shooting, and says what there is.
+    ///
+    /// # Errors
+    /// The fault of shooting or of writing; [`Error::CutShort`] if pictures are missing that nobody asked to leave out.
+    pub fn finish(self, shot: Result<(), Error>) -> Result<(), Error> {
+        let FilmWatch { bar, done, count, .. } = self.watch;
+        bar.finish_and_clear();
+        if done == 0 && matches!(shot, Err(Error::Interrupted)) {
+            // The encoder of a film without pictures has nothing to tell but a complaint.
+            let _ = self.sink.finish();
+            return shot;
+        }
+        match shot {
+            Err(Error::Interrupted) => {}
+            shot => shot?,
+        }
+        let was_stopped = interruption().load(Ordering::Relaxed);
+        let written = self.sink.finish()?;
+        if done < count && was_stopped {
+            tell(format_args!("interrupted: the film ends after {done} of {count} pictures"));
+        }
+        for written in written {
+            match written {
+                Written::Film(path) => tell(format_args!("wrote {}", path.display())),
+                Written::Pictures(folder) => tell(format_args!(
+                    "wrote numbered pictures into {}, because ffmpeg is not installed; install it to get a film",
+                    folder.display()
+                )),
+            }
+        }
+        if self.alone {
+            tell(format_args!("wrote {done} pictures as {}", self.name));
+        }
+        if done < count && !was_stopped { Err(Error::CutShort { done, count }) } else { Ok(()) }
     }
 }
 

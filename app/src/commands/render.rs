@@ -3,15 +3,16 @@
 //! A film without a recording shows what an inertial observer sees: the eye moves on a straight worldline, and the
 //! frames are taken at equal steps of its proper time. A recorded ride is seen with the rider's eyes.
 
-use crate::commands::cameraman::{Cameraman, Equipment, FilmOut, dial_of_stills};
+use crate::commands::cameraman::{Cameraman, Equipment, FilmOut, FilmRoll, dial_of_stills};
 use crate::commands::render_room;
 use crate::error::Error;
 use crate::output::say::tell;
-use crate::session::interrupt::interrupted;
-use crate::session::reel::{self, Look, Moment, Ridden};
+use crate::session::interrupt::{interrupted, interruption};
+use crate::session::reel::{self, Ridden, Told};
 use crate::session::scenes::{self, World};
-use command::{Output, PartChoice, RenderOptions, Viewpoint};
-use filming::FrameFile;
+use camera_paths::{CameraPath, PathFile, PathView};
+use command::{Output, PartChoice, RenderOptions, SceneChoice, Viewpoint, WorldOptions};
+use filming::{FrameFile, Look, Moment};
 use glam::{DQuat, DVec3};
 use physics::{Event, Observer};
 use picture_files::files::writable;
@@ -19,8 +20,9 @@ use picture_files::{Codec, FarmPart, FrameNumbers, is_whole};
 use render::Gpu;
 use scene::Start;
 use std::path::Path;
+use std::sync::atomic::Ordering;
 use trace::{CameraLens, Optics};
-use view::{Camera, Gaze, RendererName};
+use view::{Camera, Gaze};
 use walls::StereoEyes;
 
 /// Length of a film without `--seconds`, seconds of proper time.
@@ -32,10 +34,8 @@ const FILM_SECONDS: f64 = 10.0;
 /// Any fault that keeps the picture from being drawn or written.
 pub fn render(options: &RenderOptions) -> Result<(), Error> {
     options.passed_over().iter().for_each(tell);
-    // Only the ray tracer can be interrupted, and its interruption counts from the beginning.
-    if options.dial.renderer == RendererName::Raytrace {
-        interrupted();
-    }
+    // An interruption counts from the beginning.
+    interrupted();
     if !matches!(options.out, Output::Folder(_)) {
         writable(&options.out.path())?;
     }
@@ -46,6 +46,9 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     }
     if let Some(recording) = &options.replay {
         return recorded_ride(options, &gpu, recording, part);
+    }
+    if let Some(path) = &options.path {
+        return path_film(options, &gpu, path, part);
     }
     let World { scene, speed_of_light_m_s: speed_of_light } = scenes::load(&options.world)?;
     let start = scene.start;
@@ -87,7 +90,7 @@ fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path, part: Far
     let ridden = reel::reel(recording, &options.world, (rate, seconds), shown)?;
     let Ridden { scene, speed_of_light, reel } = ridden;
     let turn = rider_look(&options.viewpoint);
-    let seen = |mut moment: Moment| {
+    let seen = |mut moment: Moment<Told>| {
         moment.look.outside = options.outside.or(moment.look.outside);
         moment.gaze.observer_from_eye *= turn;
         moment
@@ -119,6 +122,116 @@ fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path, part: Far
                 .zip(0..)
                 .filter_map(|(moment, number)| numbers.next_if_eq(&&number).map(|number| Ok((*number, seen(moment)))));
             camera.film(pictures, due.numbers.len() as u64, film_out(options, out))
+        }
+    }
+}
+
+/// Draws the picture or film of a camera that moves along a path, in one scene after the other.
+fn path_film(options: &RenderOptions, gpu: &Gpu, file: &Path, part: FarmPart) -> Result<(), Error> {
+    let mut worlds = PathWorlds { options, world: None };
+    let (path, scenes) = worlds.path(file)?;
+    let rate = options.film.frames_per_second();
+    let due = match &options.film.frames {
+        Some(numbers) => numbers.clone(),
+        None => FrameNumbers::first(options.film.count(options.film.seconds.unwrap_or(path.length_s()))),
+    };
+    let due = Due::of(options, &due, part);
+    if due.is_done(options) {
+        return Ok(());
+    }
+    let first = path.at(0.0);
+    let upright = first.gaze.observer_from_eye.inverse() * first.upright;
+    let dial = dial_of_stills(&options.dial, &options.picture);
+    let is_still = matches!(options.out, Output::Picture(_) | Output::Light(_));
+    let seen = |number: u64| {
+        let own_s = number as f64 / rate;
+        let at = if is_still { options.film.seconds.unwrap_or(0.0) } else { own_s };
+        (path.at(at), own_s)
+    };
+    let moment = |view: &PathView, own_s: f64, start: &Start| {
+        let look = Look::of(&options.picture.presentation(start), options.outside);
+        let fov_deg = options.picture.fov.or(view.fov_deg).unwrap_or(look.fov_deg);
+        Moment { gaze: view.gaze, own_s, look: Look { fov_deg, ..look }, told: None }
+    };
+    let mut roll = None;
+    let mut numbers = due.numbers.as_slice();
+    let mut shot = Ok(());
+    while let (Some(number), Ok(())) = (numbers.first(), &shot) {
+        // Take the pictures that the next scene has.
+        let scene_of = |number: u64| &scenes[seen(number).0.part];
+        let (here, count) =
+            (scene_of(*number), numbers.iter().take_while(|next| scene_of(**next) == scene_of(*number)));
+        let count = count.count();
+        let World { scene, speed_of_light_m_s } = worlds.load(here)?;
+        let (start, equipment) = (scene.start, equipment(options, speed_of_light_m_s, upright));
+        let mut camera = Cameraman::new(gpu, scene, &options.picture, dial, equipment)?;
+        let moments = numbers[..count].iter().map(|number| {
+            let (view, own_s) = seen(*number);
+            Ok((*number, moment(&view, own_s, &start)))
+        });
+        match &options.out {
+            Output::Picture(path) | Output::Light(path) => {
+                let kind = if options.writes_light() { FrameFile::Exr } else { FrameFile::Png };
+                return camera.still(&moment(&seen(0).0, 0.0, &start), path, kind);
+            }
+            out => {
+                let (out, all) = (film_out(options, out), due.numbers.len() as u64);
+                let roll = match &mut roll {
+                    Some(roll) => roll,
+                    roll => roll.insert(FilmRoll::open(gpu, equipment, options.picture.size, out, all)?),
+                };
+                shot = camera.shoot(moments, roll);
+            }
+        }
+        if interruption().load(Ordering::Relaxed) {
+            break;
+        }
+        numbers = &numbers[count..];
+    }
+    roll.map_or(Ok(()), |roll| roll.finish(shot))
+}
+
+/// Scenes of a path's parts, of which the one loaded last is kept.
+struct PathWorlds<'a> {
+    options: &'a RenderOptions,
+    world: Option<(WorldOptions, World)>,
+}
+
+impl PathWorlds<'_> {
+    /// Path of a file, or of the scene's own camera, and the world of each part.
+    fn path(&mut self, file: &Path) -> Result<(CameraPath, Vec<WorldOptions>), Error> {
+        let own = self.options.world.clone();
+        if file == Path::new("camera") {
+            let World { scene, speed_of_light_m_s } = self.load(&own)?;
+            let named = |camera: &&scene::ViewCamera| own.camera.as_ref().is_none_or(|name| camera.name == *name);
+            let moving = scene.cameras.iter().filter(named).find(|camera| camera.motion.is_some());
+            let camera = moving.ok_or_else(|| Error::NoMovingCamera { scene: scene.name.clone() })?;
+            let path = CameraPath::of_gltf_camera(camera, speed_of_light_m_s)?;
+            self.world = Some((own.clone(), World { scene, speed_of_light_m_s }));
+            return Ok((path, vec![own]));
+        }
+        let file = PathFile::read(file)?;
+        let mut worlds = Vec::new();
+        let mut speeds = Vec::new();
+        for part in file.scenes() {
+            let mut world = own.clone();
+            if let Some(scene) = &part.scene {
+                world = WorldOptions { scene: Some(SceneChoice::from_name(scene)), camera: None, ..world };
+            }
+            world.speed_of_light = part.speed_of_light_m_s.or(world.speed_of_light);
+            let loaded = self.load(&world)?;
+            speeds.push(loaded.speed_of_light_m_s);
+            self.world = Some((world.clone(), loaded));
+            worlds.push(world);
+        }
+        Ok((file.path(&speeds)?, worlds))
+    }
+
+    /// World of a part.
+    fn load(&mut self, options: &WorldOptions) -> Result<World, Error> {
+        match self.world.take() {
+            Some((kept, world)) if kept == *options => Ok(world),
+            _ => Ok(scenes::load(options)?),
         }
     }
 }

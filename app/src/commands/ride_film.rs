@@ -9,10 +9,11 @@ use crate::error::Error;
 use crate::output::progress;
 use crate::output::say::tell;
 use crate::session::interrupt::interrupted;
-use crate::session::reel::{FRAMES_PER_SECOND, Reel, Ridden, reel};
+use crate::session::reel::{FRAMES_PER_SECOND, Ridden, Told, reel};
 use crate::session::scenes;
 use crate::session::start::{RideRoom, first_actions, prepared, present};
 use command::RideOptions;
+use filming::Reel;
 use hardware::SetUp;
 use input::{KeyboardKey, Nanos, SECOND, Sample, VehicleKind};
 use picture_files::Codec;
@@ -70,7 +71,7 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
 }
 
 /// Film's moments, and the outcome of recording the ride.
-type Followed = (Reel, Result<(), LogError>);
+type Followed = (Reel<Told>, Result<(), LogError>);
 
 /// Follows a live ride in real time.
 fn follow(
@@ -78,7 +79,7 @@ fn follow(
     set_up: &SetUp,
     simulation: Simulation,
     log: RideLog,
-    (mut reel, seconds): (Reel, f64),
+    (mut reel, seconds): (Reel<Told>, f64),
 ) -> Result<Followed, Error> {
     let options = RideOptions { seconds: Some(seconds), ..options.clone() };
     let mut live = present(&options, set_up, simulation, log, None)?;
@@ -105,7 +106,7 @@ fn demonstrate(
     scene: &Scene,
     mut simulation: Simulation,
     mut log: RideLog,
-    mut reel: Reel,
+    mut reel: Reel<Told>,
 ) -> Result<Followed, Error> {
     let mut rider = Demonstrator::new(scene, &simulation);
     let stop = interrupted();

@@ -12,7 +12,6 @@ pub mod live;
 mod live_told;
 mod lost_time;
 pub mod making;
-pub mod outside_look;
 pub mod preferences;
 mod recorded_ride;
 #[cfg(test)]

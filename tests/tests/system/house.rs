@@ -14,7 +14,7 @@ use serde_json::Value;
 use system_tests::house::{Measures, Room};
 
 /// Crates of the house, each with the crates of the house that it uses, from the bottom upwards.
-const PLAN: [(&str, &[&str]); 34] = [
+const PLAN: [(&str, &[&str]); 36] = [
     ("physics", &[]),
     ("exact_reference", &[]),
     ("shaders", &["physics"]),
@@ -35,6 +35,7 @@ const PLAN: [(&str, &[&str]); 34] = [
     ("hardware", &["input", "regular_file", "room", "words"]),
     ("trace", &["physics", "scene", "shaders", "view"]),
     ("render", &["physics", "scene", "shaders", "view"]),
+    ("studio", &["render", "shaders", "view"]),
     ("ride", &["input", "physics", "scene", "view"]),
     ("instruments", &["physics", "ride", "scene"]),
     ("kiosk", &["input", "ride"]),
@@ -43,9 +44,13 @@ const PLAN: [(&str, &[&str]); 34] = [
     ("presentation", &["input", "render", "view", "words"]),
     ("interface", &["hardware", "input", "presentation", "render", "ride", "shaders", "view", "words"]),
     ("probe", &["physics", "ride"]),
-    ("walls", &["physics", "render", "room", "shaders", "view"]),
+    ("walls", &["physics", "render", "room", "shaders", "studio", "view"]),
+    (
+        "filming",
+        &["input", "picture_files", "presentation", "render", "ride", "shaders", "studio", "trace", "view", "walls"],
+    ),
     ("headset", &["input", "render", "room", "walls"]),
-    ("measure", &["exact_reference", "input", "physics", "render", "ride", "scene", "trace", "view"]),
+    ("measure", &["exact_reference", "input", "physics", "render", "ride", "scene", "studio", "trace", "view"]),
     (
         "cabin",
         &[
@@ -65,9 +70,11 @@ const PLAN: [(&str, &[&str]); 34] = [
     (
         "command",
         &[
+            "filming",
             "input",
             "measure",
             "physics",
+            "picture_files",
             "presentation",
             "regular_file",
             "render",
@@ -84,7 +91,9 @@ const PLAN: [(&str, &[&str]); 34] = [
         &[
             "built_in",
             "cabin",
+            "camera_paths",
             "command",
+            "filming",
             "hardware",
             "headset",
             "input",
@@ -103,6 +112,7 @@ const PLAN: [(&str, &[&str]); 34] = [
             "room",
             "scene",
             "scene_files",
+            "studio",
             "tours",
             "trace",
             "view",
