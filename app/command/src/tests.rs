@@ -10,6 +10,7 @@ use glam::DVec3;
 use view::{Effects, RendererName};
 
 use super::*;
+use filming::FrameFile;
 use input::head::Stance;
 use presentation::{Latency, Vignette};
 use scene::Start;
@@ -197,6 +198,11 @@ fn the_small_commands_parse() {
 #[test]
 fn a_value_that_cannot_be_is_refused_with_its_option_and_what_was_expected() {
     for (line, told) in [
+        ("render --out a.png --projection dome", ["--projection", "fisheye:220"]),
+        ("render --out a.mp4 --frames 9-3", ["--frames", "ends before it begins"]),
+        ("render --out a.#.png --part 5/4", ["--part", "3/16"]),
+        ("render --out a.mp4 --codec divx", ["--codec", "h264, h265, av1, prores, ffv1"]),
+        ("render --out a.mp4 --path p.json", ["--path", ".toml"]),
         ("render --out a.png --size 1280", ["--size", "WIDTHxHEIGHT"]),
         ("render --out a.png --size 0x720", ["'0x720'", "1 to 16384"]),
         ("render --out a.png --size 16385x1", ["--size", "1 to 16384"]),
@@ -235,8 +241,8 @@ fn a_value_that_cannot_be_is_refused_with_its_option_and_what_was_expected() {
         ("render --display cave4 --out walls.jpg", ["--out", ".exr"]),
         ("render --display cave4 --out walls.png", ["--out", "folder"]),
         ("render --out png", ["--out", ".png"]),
-        ("render --out a.mp4 --seconds -1", ["--seconds", "above 0"]),
-        ("render --out a.mp4 --seconds inf", ["--seconds", "above 0"]),
+        ("render --out a.mp4 --seconds -1", ["--seconds", "0 or above"]),
+        ("render --out a.mp4 --seconds inf", ["--seconds", "0 or above"]),
         ("render --out a.mp4 --fps 0", ["--fps", "from 0.1 to 1000"]),
         ("render --out a.mp4 --replay r.png", ["--replay", ".mcap"]),
         ("ride --speed-of-light 30", ["--speed-of-light", "km/h"]),
@@ -276,7 +282,19 @@ fn options_that_contradict_each_other_are_refused_by_name() {
         ("render --out a.exr --fps 25", ["--fps", ".mp4"]),
         ("render --out a.exr --seconds 2", ["--seconds", "--replay"]),
         ("render --out a.png --seconds 2", ["--seconds", "--replay"]),
-        ("render --out a.png --look 0,3,0", ["--up", "--look"]),
+        ("render --out a.png --look 0,3,0 --up 0,-1,0", ["--up", "--look"]),
+        ("render --out a.png --projection sphere --size 640x480", ["--size 640x480", "2 to 1"]),
+        ("render --out a.exr --stereo anaglyph", ["anaglyph", ".exr"]),
+        ("render --out a.png --stereo top-bottom --display cave4", ["--display", "--out"]),
+        ("render --out walls --stereo top-bottom --display cave4", ["--stereo", "--display"]),
+        ("render --out a.png --eye-separation 1", ["--stereo", "required"]),
+        ("render --out a.png --outside 1,2,3 --projection sphere", ["--outside", "--projection"]),
+        ("render --out a.png --frames 1-3", ["--frames", "film.####.png"]),
+        ("render --out a.mp4 --resume", ["--resume", "film.####.png"]),
+        ("render --out a.mp4 --part 1/2", ["--part", "film.####.png"]),
+        ("render --out a.mp4 --codec prores", ["--codec prores", ".mov"]),
+        ("render --out a.#.png --codec h264", ["--codec", ".mp4"]),
+        ("render --out a.mp4 --path p.toml --look 0,0,1", ["--path", "--look"]),
         ("render --out a.mp4 --replay r.mcap --position 0,0,0", ["--replay", "--position"]),
         ("render --out a.mp4 --replay r.mcap --beta 0,0,0", ["--replay", "--beta"]),
         ("ride --verify", ["--verify", "--replay"]),
@@ -335,4 +353,27 @@ fn comfort_is_that_of_a_headset_unless_it_is_said_otherwise() {
     ] {
         assert!(refusal(&format!("ride {line}")).contains(told), "{line}: {}", refusal(&format!("ride {line}")));
     }
+}
+
+#[test]
+fn pictures_have_the_size_that_their_projection_needs() {
+    for (options, size) in [
+        ("", [1280, 720]),
+        ("--projection sphere", [4096, 2048]),
+        ("--projection fisheye:220", [2048, 2048]),
+        ("--projection cube --size 30x20", [30, 20]),
+        ("--stereo side-by-side", [1280, 720]),
+    ] {
+        assert_eq!(render(options).picture.size, size, "{options}");
+    }
+    let Ok(Command::Render(options)) = parse("render --out film.####.exr --frames 3,5-9:2 --part env --resume") else {
+        panic!()
+    };
+    let Output::Sequence(name, FrameFile::Exr) = &options.out else { panic!("{:?}", options.out) };
+    assert_eq!(name.path(7), std::path::Path::new("film.0007.exr"));
+    assert_eq!(options.film.part, Some(PartChoice::Environment));
+    assert_eq!(options.film.frames.as_ref().unwrap().iter().collect::<Vec<_>>(), [3, 5, 7, 9]);
+    // Straight above, what is ahead is below in the picture, as on a dome.
+    let start = scene::Start { look: glam::DVec3::NEG_Z, ..scene::Start::default() };
+    assert_eq!(render("--look 0,2,0").viewpoint.up(&start), glam::DVec3::Z);
 }

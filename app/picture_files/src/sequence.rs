@@ -53,9 +53,8 @@ fn number_place(name: &str) -> Option<(usize, usize, usize)> {
     name.match_indices('%').find_map(|(start, _)| {
         let digits: String = name[start + 1..].chars().take_while(char::is_ascii_digit).collect();
         let end = start + 1 + digits.len();
-        // A width without a zero would fill with spaces.
-        let width = if digits.is_empty() { Some(1) } else { digits.strip_prefix('0')?.parse().ok() };
-        (name[end..].starts_with('d')).then_some((start, end + 1, width?.clamp(1, 20)))
+        let width: usize = digits.parse().unwrap_or(1);
+        name[end..].starts_with('d').then_some((start, end + 1, width.clamp(1, 20)))
     })
 }
 
@@ -83,11 +82,12 @@ mod tests {
             ("a/b#.png", 12, "a/b12.png"),
             ("film.%04d.png", 12345, "film.12345.png"),
             ("%d.png", 3, "3.png"),
+            ("%4d.png", 3, "0003.png"),
             ("100%_%06d.exr", 3, "100%_000003.exr"),
         ] {
             assert_eq!(SequenceName::of(Path::new(name)).unwrap().path(number), Path::new(path), "{name}");
         }
-        for wrong in ["film.png", "a#b#.png", "%4d.png", "%0d%d.png", "a##/film.png", "50%.png"] {
+        for wrong in ["film.png", "a#b#.png", "%04d%d.png", "a##/film.png", "50%.png"] {
             assert_eq!(SequenceName::of(Path::new(wrong)), None, "{wrong}");
         }
         let name = SequenceName::of(Path::new("f/film.%03d.png")).unwrap();
