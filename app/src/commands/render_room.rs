@@ -44,8 +44,9 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
     let quality = Quality {
         format: Studio::format(gpu),
         samples: picture.samples,
-        density: if picture.samples == 1 { 3.0 } else { 1.0 },
-        smooth: false,
+        // With one sample a pixel of a bent screen has the colour of the nearest of many rays; else rays are mixed.
+        density: if picture.samples == 1 { 3.0 } else { 1.5 },
+        smooth: picture.samples > 1,
     };
     // A surface with several samples for each of its pixels does not need the map as fine as well.
     let bent = display.channels.iter().any(|channel| channel.flat(&display).is_none());
