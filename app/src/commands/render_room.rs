@@ -48,10 +48,11 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
         density: if picture.samples == 1 { 3.0 } else { 1.5 },
         smooth: picture.samples > 1,
     };
-    // A surface with several samples for each of its pixels does not need the map as fine as well.
+    // A bent surface with several rays for each of its pixels does not need the map as fine as well.
     let bent = display.channels.iter().any(|channel| channel.flat(&display).is_none());
     let usual = dial_of_stills(&options.dial, picture);
-    let finer = if bent && options.dial.map_scale.is_none() { quality.density } else { 1.0 };
+    let coarser = bent && picture.samples == 1 && options.dial.map_scale.is_none();
+    let finer = if coarser { quality.density } else { 1.0 };
     let wanted = Dial { map_scale: usual.map_scale.map(|scale| scale / finer), ..usual };
     let spinner = progress::cutting(wanted);
     let Choice { scene, dial, because } = Choice::of(scene, wanted, Occasion::Still)?;
