@@ -72,6 +72,8 @@ pub const GAMUT_DESATURATE: u32 = 0;
 pub const GAMUT_WHITE: u32 = 1;
 /// Gamut mapping that clamps each channel by itself.
 pub const GAMUT_CLAMP: u32 = 2;
+/// No gamut mapping: light is handed on as it is.
+pub const GAMUT_OPEN: u32 = 3;
 
 /// Combination of both eyes by rows: the even rows of the monitor are the left eye's.
 pub const COMBINE_ROWS: u32 = 0;

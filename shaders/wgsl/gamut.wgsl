@@ -17,6 +17,9 @@ fn whitened(rgb: vec3<f32>) -> vec3<f32> {
 }
 
 fn in_gamut(rgb: vec3<f32>) -> vec3<f32> {
+    if (GAMUT == GAMUT_OPEN) {
+        return rgb;
+    }
     let clamped = clamp(rgb, vec3(0.0), vec3(1.0));
     if (all(clamped == rgb)) {
         return rgb;

@@ -1,7 +1,8 @@
 //! Options of films and numbered pictures.
 
 use clap::Args;
-use picture_files::{Codec, FarmPart, FrameNumbers};
+use picture_files::{Codec, FarmPart, FrameNumbers, HdrCurve};
+use std::path::Path;
 use std::str::FromStr;
 
 use super::values::{self, Output};
@@ -37,6 +38,12 @@ pub struct FilmOptions {
     /// Codec of a film [default: h264; prores in a .mov file].
     #[arg(long, value_enum, value_name = "CODEC")]
     pub codec: Option<Codec>,
+    /// Write a film of a high dynamic range, in the colours of Rec. 2020: white is 203 cd/m², and what is brighter shines;
+    /// by h265 without --codec.
+    ///
+    /// Light is exposed as --exposure says; --tone and --gamut are for screens without that range.
+    #[arg(long, value_enum, value_name = "SIGNAL")]
+    pub hdr: Option<HdrCurve>,
 }
 
 /// Part of the pictures that a program is to draw.
@@ -71,6 +78,15 @@ impl FilmOptions {
         (seconds * self.frames_per_second()).round().max(1.0) as u64
     }
 
+    /// Codec of a film of this name.
+    pub fn film_codec(&self, path: &Path) -> Codec {
+        let usual = match Codec::usual(path) {
+            usual if self.hdr.is_some() && !usual.is_deep() => Codec::H265,
+            usual => usual,
+        };
+        self.codec.unwrap_or(usual)
+    }
+
     /// Checks rules between the options. `replays`: the film is that of a recording.
     pub(super) fn check(&self, out: &Output, replays: bool) -> Result<(), String> {
         let numbered = matches!(out, Output::Sequence(..));
@@ -94,6 +110,14 @@ impl FilmOptions {
             return Err(
                 "--resume and --part are for numbered pictures: name them with --out, as in film.####.png".to_owned()
             );
+        }
+        if self.hdr.is_some() {
+            if !matches!(out, Output::Film(_)) {
+                return Err("--hdr is for films; light itself goes into .exr files".to_owned());
+            }
+            if !self.film_codec(&out.path()).is_deep() {
+                return Err("--hdr needs a codec with more than 8 bits: --codec h265, av1, prores or ffv1".to_owned());
+            }
         }
         match (self.codec, out) {
             (None, _) => Ok(()),

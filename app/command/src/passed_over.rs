@@ -123,6 +123,12 @@ impl RenderOptions {
             let wall = "it is for flat pictures";
             passed.note(self.projection.wall_distance.is_some(), "--wall-distance", wall);
         }
+        if self.film.hdr.is_some() {
+            let (given, usual) = (self.picture.development(), Development::default());
+            let range = "a film of a high dynamic range needs no tone curve and no gamut mapping";
+            passed.note(given.tone != usual.tone, "--tone", range);
+            passed.note(given.gamut != usual.gamut, "--gamut", range);
+        }
         if self.writes_light() {
             let light = "an .exr file holds light before it is developed";
             let (given, usual) = (self.picture.development(), Development::default());

@@ -160,6 +160,11 @@ impl RenderOptions {
                 "--outside makes one flat picture; leave --projection and --stereo, or --outside out".to_owned()
             );
         }
+        if self.projection.stereo == Some(StereoLayout::Anaglyph) && self.film.hdr.is_some() {
+            return Err(
+                "--stereo anaglyph is for usual screens; leave --hdr out, or choose another arrangement".to_owned()
+            );
+        }
         if self.projection.stereo == Some(StereoLayout::Anaglyph) && self.writes_light() {
             return Err("--stereo anaglyph is a picture for a screen, and .exr files hold light; choose another \
                  arrangement, or .png"

@@ -4,6 +4,7 @@
 //! so that the device draws on while the picture before is fetched: [`PictureMaker::begin`] and [`Taking::finish`]. A
 //! [`Shooting`] leads all pictures of a film through these, and a [`PictureSink`] writes them beside that.
 
+mod high_range;
 mod layout;
 mod maker;
 mod moment;
@@ -12,6 +13,7 @@ mod reel;
 mod shoot;
 mod sink;
 
+pub use high_range::{DeepPicture, signal};
 pub use layout::StereoLayout;
 pub use maker::{MakerError, MakerOptions, PictureMaker, Taking, TracedPart};
 pub use moment::{FilmView, Look, Moment};

@@ -35,6 +35,19 @@ pub struct MakerOptions {
     pub projection: Projection,
     /// Eyes of a stereo picture.
     pub stereo: Option<StereoEyes>,
+    /// True if light is exposed alone, for a screen of a high dynamic range.
+    pub exposes_alone: bool,
+}
+
+impl MakerOptions {
+    fn darkroom(&self, gpu: &Gpu) -> Darkroom {
+        let format = Studio::format(gpu).colour;
+        if self.exposes_alone {
+            Darkroom::exposing(gpu, self.size, format)
+        } else {
+            Darkroom::new(gpu, self.size, format)
+        }
+    }
 }
 
 /// Share of a traced picture that is finished: tiles done, and all tiles.
@@ -72,30 +85,39 @@ impl Taking {
     pub fn finish(self, gpu: &Gpu) -> Result<Vec<RgbaImage>, GpuError> {
         self.developing.finish(gpu)
     }
+
+    /// Waits for light that was exposed alone.
+    ///
+    /// # Errors
+    /// [`GpuError`] if the device went away.
+    pub fn finish_exposed(self, gpu: &Gpu) -> Result<Vec<Rgb32FImage>, GpuError> {
+        self.developing.finish_exposed(gpu)
+    }
 }
 
 impl PictureMaker {
     /// Maker that draws on the device, by a renderer that draws into [`Studio::format`].
     pub fn drawn(gpu: &Gpu, renderer: SceneRenderer, options: MakerOptions) -> Self {
-        let MakerOptions { size, samples, projection, stereo } = options;
+        let MakerOptions { size, samples, projection, stereo, .. } = options;
+        let darkroom = options.darkroom(gpu);
         let renderer = Box::new(renderer);
         let way = if projection == Projection::Flat && stereo.is_none() {
-            Way::Flat(renderer, Box::new(Studio::new(gpu, size, samples)))
+            let studio = Studio::with_darkroom(gpu, size, samples, Studio::format(gpu), darkroom);
+            Way::Flat(renderer, Box::new(studio))
         } else {
             let format = Studio::format(gpu);
             // With one sample a pixel has the colour of the nearest of many rays; else rays are mixed.
             let (density, smooth) = if samples == 1 { (3.0, false) } else { (1.5, true) };
             let quality = Quality { format, samples, density, smooth };
             let picture = ProjectedPicture::new(gpu, projection, size, stereo, quality);
-            Way::Projected(renderer, Box::new(picture), Box::new(Darkroom::new(gpu, size, format.colour)))
+            Way::Projected(renderer, Box::new(picture), Box::new(darkroom))
         };
         Self { options, way }
     }
 
     /// Maker that follows rays until `stop` is set.
     pub fn traced(gpu: &Gpu, tracer: RayTracer, options: MakerOptions, stop: Arc<AtomicBool>) -> Self {
-        let darkroom = Darkroom::new(gpu, options.size, Studio::format(gpu).colour);
-        Self { options, way: Way::Rays(Box::new(tracer), Box::new(darkroom), stop) }
+        Self { options, way: Way::Rays(Box::new(tracer), Box::new(options.darkroom(gpu)), stop) }
     }
 
     /// Renderer on the device, if one draws.
@@ -214,7 +236,7 @@ fn trace(
     stop: &AtomicBool,
     tile_done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Traced>, MakerError> {
-    let MakerOptions { size, samples, projection, stereo } = *options;
+    let MakerOptions { size, samples, projection, stereo, .. } = *options;
     let mut traced = Vec::new();
     for aside_m in stereo.map_or(vec![None], |eyes| [-0.5, 0.5].map(|side| Some(side * eyes.separation_m)).to_vec()) {
         let mut shot = view.shot();

@@ -1,11 +1,13 @@
 //! Pictures of a film one after the other, in stages that overlap: the photo-surface of the next picture is worked out
 //! and this one is drawn while the one before is fetched, and those before that are written.
 
+use crate::high_range::signal;
 use crate::layout::StereoLayout;
 use crate::maker::{MakerError, PictureMaker, Taking};
 use crate::moment::FilmView;
 use crate::sink::{FrameFile, FramePictures, PictureSink};
 use image::RgbaImage;
+use rayon::prelude::*;
 use render::{Gpu, GpuError};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -114,9 +116,15 @@ impl Shooting<'_> {
     where
         E: From<GpuError>,
     {
-        let mut pictures = taking.finish(self.gpu)?;
-        onlooker.write_over(&frame.told, &mut pictures)?;
-        let taken = self.sink.add(frame.number, FramePictures::Developed(pictures).arranged(self.layout));
+        let pictures = if let FrameFile::Hdr(curve) = self.kind {
+            let lights = taking.finish_exposed(self.gpu)?;
+            FramePictures::Deep(lights.par_iter().map(|light| signal(light, curve)).collect())
+        } else {
+            let mut pictures = taking.finish(self.gpu)?;
+            onlooker.write_over(&frame.told, &mut pictures)?;
+            FramePictures::Developed(pictures)
+        };
+        let taken = self.sink.add(frame.number, pictures.arranged(self.layout));
         if taken {
             onlooker.picture_done(frame.number);
         }

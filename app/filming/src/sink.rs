@@ -1,11 +1,12 @@
 //! Files into which pictures go, written beside the drawing.
 
+use crate::high_range::DeepPicture;
 use crate::layout::{EYE_WORDS, StereoLayout};
 use crossbeam_channel::{Sender, bounded};
 use image::{Rgb32FImage, RgbaImage};
 use picture_files::files::{WriteError, save};
 use picture_files::film::{Film, FilmError, FilmForm, Written};
-use picture_files::{FilmEyes, FilmProjection, SequenceName, SphericalTags, exr};
+use picture_files::{FilmEyes, FilmProjection, HdrCurve, SequenceName, SphericalTags, exr};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
@@ -19,6 +20,8 @@ pub enum FrameFile {
     Png,
     /// Light, as OpenEXR.
     Exr,
+    /// Signals for a screen of a high dynamic range, in films alone.
+    Hdr(HdrCurve),
 }
 
 /// Reason why pictures could not be written.
@@ -39,6 +42,8 @@ pub enum FramePictures {
     Developed(Vec<RgbaImage>),
     /// Their light.
     Light(Vec<Rgb32FImage>),
+    /// Signals of a high dynamic range.
+    Deep(Vec<DeepPicture>),
 }
 
 /// Place of a film's pictures.
@@ -89,6 +94,10 @@ impl FramePictures {
                 Self::Light(vec![layout.joined(&lights[0], &lights[1])])
             }
             Self::Light(lights) => Self::Light(lights),
+            Self::Deep(deep) if layout.files() == 1 && deep.len() == 2 => {
+                Self::Deep(vec![layout.joined(&deep[0], &deep[1])])
+            }
+            Self::Deep(deep) => Self::Deep(deep),
         }
     }
 }
@@ -125,7 +134,7 @@ impl PictureSink {
             let (queue, fault) = (queue.clone(), Arc::clone(&fault));
             let write = move || {
                 for (path, pictures) in queue {
-                    if let Err(error) = written(&path, &pictures) {
+                    if let Err(error) = written(&path, pictures) {
                         fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
                         break;
                     }
@@ -142,6 +151,9 @@ impl PictureSink {
     pub fn add(&self, number: u64, pictures: FramePictures) -> bool {
         match (self, pictures) {
             (Self::Films(films), FramePictures::Developed(pictures)) => {
+                films.iter().zip(pictures).all(|(film, picture)| film.add(picture))
+            }
+            (Self::Films(films), FramePictures::Deep(pictures)) => {
                 films.iter().zip(pictures).all(|(film, picture)| film.add(picture))
             }
             (Self::Films(_), FramePictures::Light(_)) => false,
@@ -177,6 +189,7 @@ impl NumberedWriters {
                 pictures.into_iter().map(|picture| FramePictures::Developed(vec![picture])).collect()
             }
             FramePictures::Light(lights) => lights.into_iter().map(|light| FramePictures::Light(vec![light])).collect(),
+            FramePictures::Deep(deep) => deep.into_iter().map(|deep| FramePictures::Deep(vec![deep])).collect(),
         };
         let sound = self.fault.lock().unwrap_or_else(PoisonError::into_inner).is_none();
         sound && self.names.iter().zip(each).all(|(name, picture)| self.work.send((name.path(number), picture)).is_ok())
@@ -184,9 +197,10 @@ impl NumberedWriters {
 }
 
 /// Writes the pictures of a file.
-fn written(path: &Path, pictures: &FramePictures) -> Result<(), WriteError> {
+fn written(path: &Path, pictures: FramePictures) -> Result<(), WriteError> {
     match pictures {
-        FramePictures::Developed(pictures) => pictures.iter().try_for_each(|picture| save(picture, path)),
+        FramePictures::Developed(pictures) => pictures.into_iter().try_for_each(|picture| save(picture, path)),
         FramePictures::Light(lights) => lights.iter().try_for_each(|light| exr::save(light, path)),
+        FramePictures::Deep(deep) => deep.into_iter().try_for_each(|deep| save(deep, path)),
     }
 }

@@ -18,7 +18,22 @@ pub enum Codec {
     Ffv1,
 }
 
+/// Signal of a film of a high dynamic range (ITU-R BT.2100).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[value(rename_all = "lower")]
+pub enum HdrCurve {
+    /// Perceptual quantiser, as of HDR10: luminances up to 10,000 cd/m².
+    Pq,
+    /// Hybrid log-gamma, which usual screens show, too.
+    Hlg,
+}
+
 impl Codec {
+    /// True if it can hold more than 8 bits a colour in a form that players know.
+    pub fn is_deep(self) -> bool {
+        self != Self::H264
+    }
+
     /// Codec of a film that is not told its codec, by the ending of its name.
     pub fn usual(path: &Path) -> Self {
         match ending(path).as_deref() {

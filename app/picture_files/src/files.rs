@@ -1,6 +1,6 @@
 //! Output files: checks before long work, and names that overwrite nothing.
 
-use image::RgbaImage;
+use image::DynamicImage;
 use std::ffi::OsStr;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -42,9 +42,9 @@ pub fn writable(path: &Path) -> Result<(), WriteError> {
 ///
 /// # Errors
 /// [`WriteError`] with the path and the reason; no partial file is left then.
-pub fn save(picture: &RgbaImage, path: &Path) -> Result<(), WriteError> {
+pub fn save(picture: impl Into<DynamicImage>, path: &Path) -> Result<(), WriteError> {
     let mut bytes = std::io::Cursor::new(Vec::new());
-    picture.write_to(&mut bytes, image::ImageFormat::Png).map_err(|error| WriteError::new(path, error))?;
+    picture.into().write_to(&mut bytes, image::ImageFormat::Png).map_err(|error| WriteError::new(path, error))?;
     let bytes = bytes.into_inner();
     whole(path, |temporary| std::fs::write(temporary, &bytes)).map_err(|error| WriteError::new(path, error))
 }
@@ -136,9 +136,9 @@ mod tests {
     #[cfg(target_os = "linux")]
     #[test]
     fn a_full_disk_is_an_error() {
-        let picture = RgbaImage::new(3, 3);
+        let picture = DynamicImage::new_rgba8(3, 3);
         assert!(
-            save(&picture, Path::new("/dev/full"))
+            save(picture, Path::new("/dev/full"))
                 .unwrap_err()
                 .to_string()
                 .starts_with("/dev/full: could not be written")

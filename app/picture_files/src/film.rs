@@ -4,17 +4,19 @@
 //! A separate thread writes, so that encoding a frame and drawing the next overlap. A short channel between the
 //! threads bounds the memory.
 
-use super::codec::{self, Codec};
+use super::codec::{self, Codec, HdrCurve};
 use super::files::{WriteError, save, temporary, whole};
 use super::spherical::{self, SphericalTags};
 use crossbeam_channel::{Sender, bounded};
-use image::RgbaImage;
+use image::DynamicImage;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::thread::JoinHandle;
 use thiserror::Error;
 
+/// Pixels of frames with 16 bits a colour, in this machine's order of bytes.
+const DEEP_PIXELS: &str = if cfg!(target_endian = "little") { "rgb48le" } else { "rgb48be" };
 /// Number of frames that may wait for the encoder.
 const WAITING_FRAMES: usize = 3;
 
@@ -64,6 +66,8 @@ pub enum FilmError {
 pub struct FilmForm {
     /// Codec of its pictures.
     pub codec: Codec,
+    /// Signal of a high dynamic range: its frames have 16 bits a colour then; `None` for sRGB with 8 bits.
+    pub hdr: Option<HdrCurve>,
     /// What players are told of its projection; `None` for a flat film of one eye.
     pub tags: Option<SphericalTags>,
 }
@@ -79,7 +83,7 @@ pub enum Written {
 
 /// Film that is being written.
 pub struct Film {
-    frames: Sender<RgbaImage>,
+    frames: Sender<DynamicImage>,
     writer: JoinHandle<Result<Written, FilmError>>,
 }
 
@@ -91,7 +95,7 @@ impl Film {
     /// folder for pictures can be created.
     pub fn create(path: &Path, size: [u32; 2], frames_per_second: f64, form: FilmForm) -> Result<Self, FilmError> {
         let mut sink = Sink::open(path, size, frames_per_second, form)?;
-        let (frames, queue) = bounded::<RgbaImage>(WAITING_FRAMES);
+        let (frames, queue) = bounded::<DynamicImage>(WAITING_FRAMES);
         let writer = std::thread::Builder::new()
             .name("film".to_owned())
             .spawn(move || {
@@ -105,8 +109,8 @@ impl Film {
     }
 
     /// Adds a frame. Returns false once the encoder has stopped; [`Film::finish`] then gives the reason.
-    pub fn add(&self, frame: RgbaImage) -> bool {
-        self.frames.send(frame).is_ok()
+    pub fn add(&self, frame: impl Into<DynamicImage>) -> bool {
+        self.frames.send(frame.into()).is_ok()
     }
 
     /// Waits until the last frame is written, and returns the file or folder.
@@ -139,11 +143,11 @@ impl Sink {
         }
     }
 
-    fn write(&mut self, frame: &RgbaImage) -> Result<(), FilmError> {
+    fn write(&mut self, frame: &DynamicImage) -> Result<(), FilmError> {
         match self {
             Self::Encoder(encoder) => encoder.write(frame),
             Self::Pictures { folder, count } => {
-                let WriteError { path, reason } = match save(frame, &folder.join(format!("{count:06}.png"))) {
+                let WriteError { path, reason } = match save(frame.clone(), &folder.join(format!("{count:06}.png"))) {
                     Ok(()) => {
                         *count += 1;
                         return Ok(());
@@ -168,13 +172,22 @@ impl Sink {
 
 /// Arguments of ffmpeg for the pixels: even sides, which players need where they share colours among four pixels, and
 /// the colours of high-definition video, by name, so that every player shows the same.
-fn pixels(codec: Codec) -> Vec<&'static str> {
-    if codec.keeps_rgb() {
-        return Vec::new();
+fn pixels(form: FilmForm) -> Vec<&'static str> {
+    let curve = match form.hdr {
+        None => "bt709",
+        Some(HdrCurve::Pq) => "smpte2084",
+        Some(HdrCurve::Hlg) => "arib-std-b67",
+    };
+    let primaries = if form.hdr.is_some() { "bt2020" } else { "bt709" };
+    let named = ["-color_primaries", primaries, "-color_trc", curve];
+    if form.codec.keeps_rgb() {
+        return named.to_vec();
     }
-    let filter = "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv";
-    let named = ["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"];
-    [["-vf", filter].as_slice(), &named].concat()
+    let (filter, matrix) = match form.hdr {
+        None => ("pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "bt709"),
+        Some(_) => ("pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt2020:out_range=tv", "bt2020nc"),
+    };
+    [["-vf", filter].as_slice(), &named, &["-colorspace", matrix, "-color_range", "tv"]].concat()
 }
 
 /// Removes the numbered pictures of an earlier film, which a shorter one would end with.
@@ -210,11 +223,12 @@ impl FilmEncoder {
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut encoder, 0);
         let mut child = encoder
-            .args(["-y", "-loglevel", "error", "-f", "rawvideo", "-pixel_format", "rgba"])
+            .args(["-y", "-loglevel", "error", "-f", "rawvideo"])
+            .args(["-pixel_format", if form.hdr.is_some() { DEEP_PIXELS } else { "rgba" }])
             .args(["-video_size", &format!("{}x{}", size[0], size[1])])
             .args(["-framerate", &frames_per_second.to_string(), "-i", "-"])
-            .args(pixels(form.codec))
-            .args(form.codec.arguments(false))
+            .args(pixels(form))
+            .args(form.codec.arguments(form.hdr.is_some()))
             .args(if codec::is_indexed(path) { ["-movflags", "+faststart"].as_slice() } else { &[] })
             .arg(&temporary)
             .stdin(Stdio::piped())
@@ -225,9 +239,9 @@ impl FilmEncoder {
         Ok(Self { child, input, path: path.to_owned(), temporary, tags: form.tags })
     }
 
-    fn write(&mut self, frame: &RgbaImage) -> Result<(), FilmError> {
+    fn write(&mut self, frame: &DynamicImage) -> Result<(), FilmError> {
         let Some(input) = &mut self.input else { return Ok(()) };
-        match input.write_all(frame) {
+        match input.write_all(frame.as_bytes()) {
             Ok(()) => Ok(()),
             // The encoder has ended too early, and says why.
             Err(error) => Err(self.end().err().unwrap_or_else(|| self.failed(error.to_string()))),

@@ -100,7 +100,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let (png, light) = (folder.path().join("a.png"), folder.path().join("a.exr"));
         let noise = |column: u32, row: u32| (column * 7919 + row * 104_729) % 251;
-        save(&RgbaImage::from_fn(40, 30, |x, y| image::Rgba([noise(x, y) as u8, 0, 9, 255])), &png).unwrap();
+        let noisy = RgbaImage::from_fn(40, 30, |x, y| image::Rgba([noise(x, y) as u8, 0, 9, 255]));
+        save(noisy, &png).unwrap();
         exr::save(&Rgb32FImage::from_fn(40, 30, |x, y| image::Rgb([noise(x, y) as f32, 1.0, 0.5])), &light).unwrap();
         for path in [png, light] {
             assert!(is_whole(&path, [40, 30]) && !is_whole(&path, [30, 40]), "{}", path.display());

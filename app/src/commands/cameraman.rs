@@ -15,7 +15,7 @@ use image::RgbaImage;
 use indicatif::ProgressBar;
 use picture_files::files::save;
 use picture_files::film::{FilmForm, Written};
-use picture_files::{Codec, SequenceName, exr};
+use picture_files::{Codec, HdrCurve, SequenceName, exr};
 use render::choice::Choice;
 use render::{CutStats, Gpu, SceneRenderer};
 use scene::Scene;
@@ -43,6 +43,8 @@ pub struct Equipment {
     pub optics: Optics,
     /// Largest number of turns of a ray.
     pub bounces: u32,
+    /// Signal of films of a high dynamic range.
+    pub hdr: Option<HdrCurve>,
 }
 
 /// Place of a film's pictures.
@@ -81,9 +83,10 @@ impl<'gpu> Cameraman<'gpu> {
         if size.iter().any(|side| *side > limit) {
             return Err(Error::TooLarge { size, limit });
         }
-        let Equipment { projection, stereo, optics, bounces } = equipment;
+        let Equipment { projection, stereo, optics, bounces, hdr } = equipment;
         let stereo = stereo.map(|(eyes, _)| eyes);
-        let options = MakerOptions { size, samples: picture.samples, projection, stereo };
+        let (samples, exposes_alone) = (picture.samples, hdr.is_some());
+        let options = MakerOptions { size, samples, projection, stereo, exposes_alone };
         if dial.renderer == RendererName::Raytrace {
             if interruption().load(Ordering::Relaxed) {
                 return Err(Error::Interrupted);
@@ -127,7 +130,7 @@ impl<'gpu> Cameraman<'gpu> {
         let tile_done = || bar.inc(1);
         let layout = self.equipment.layout();
         let (pictures, interrupted) = match kind {
-            FrameFile::Png => {
+            FrameFile::Png | FrameFile::Hdr(_) => {
                 let taking = self.maker.begin(self.gpu, &view, pending, &tile_done)?;
                 let interrupted = taking.interrupted;
                 let mut pictures = taking.finish(self.gpu)?;
@@ -149,7 +152,7 @@ impl<'gpu> Cameraman<'gpu> {
         let paths = filming::eye_paths(path, layout);
         match pictures.arranged(layout) {
             FramePictures::Developed(pictures) => {
-                for (picture, path) in pictures.iter().zip(&paths) {
+                for (picture, path) in pictures.into_iter().zip(&paths) {
                     save(picture, path)?;
                 }
             }
@@ -158,6 +161,7 @@ impl<'gpu> Cameraman<'gpu> {
                     exr::save(light, path)?;
                 }
             }
+            FramePictures::Deep(_) => {}
         }
         paths.iter().for_each(|path| tell(format_args!("wrote {}", path.display())));
         Ok(())
@@ -278,8 +282,9 @@ impl<'gpu> FilmRoll<'gpu> {
                 let size = layout.map_or(size, |layout| layout.size(size));
                 let tags = filming::film_tags(equipment.projection, layout);
                 let paths = filming::eye_paths(path, layout);
-                let sink = PictureSink::films(&paths, size, frames_per_second, FilmForm { codec, tags })?;
-                (sink, FrameFile::Png, path.display().to_string())
+                let sink =
+                    PictureSink::films(&paths, size, frames_per_second, FilmForm { codec, hdr: equipment.hdr, tags })?;
+                (sink, equipment.hdr.map_or(FrameFile::Png, FrameFile::Hdr), path.display().to_string())
             }
             FilmOut::Numbered(name, kind) => {
                 let sink = PictureSink::numbered(filming::eye_names(name, layout));

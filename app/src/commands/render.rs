@@ -16,7 +16,7 @@ use filming::{FrameFile, Look, Moment};
 use glam::{DQuat, DVec3};
 use physics::{Event, Observer};
 use picture_files::files::writable;
-use picture_files::{Codec, FarmPart, FrameNumbers, is_whole};
+use picture_files::{FarmPart, FrameNumbers, is_whole};
 use render::Gpu;
 use scene::Start;
 use std::path::Path;
@@ -289,8 +289,7 @@ fn film_out<'a>(options: &RenderOptions, out: &'a Output) -> FilmOut<'a> {
     match out {
         Output::Sequence(name, kind) => FilmOut::Numbered(name, *kind),
         Output::Picture(path) | Output::Light(path) | Output::Film(path) | Output::Folder(path) => {
-            let codec = options.film.codec.unwrap_or_else(|| Codec::usual(path));
-            FilmOut::Film(path, codec, options.film.frames_per_second())
+            FilmOut::Film(path, options.film.film_codec(path), options.film.frames_per_second())
         }
     }
 }
@@ -305,6 +304,7 @@ fn equipment(options: &RenderOptions, speed_of_light: f64, upright: DVec3) -> Eq
         stereo: projection.stereo.map(|layout| (StereoEyes { separation_m, wall_m, upright }, layout)),
         optics: Optics { lens, exposure_m: rays.shutter.unwrap_or(0.0) * speed_of_light },
         bounces: rays.bounces.unwrap_or(0),
+        hdr: options.film.hdr,
     }
 }
 

@@ -81,14 +81,14 @@ pub fn render(options: &RenderOptions, gpu: &Gpu, display: &str, folder: &Path) 
     }
     for channel in 0..count {
         let path = folder.join(format!("{}.png", walls.display.channels[channel].name));
-        save(&walls.develop(gpu, channel, &picture.development())?, &path)?;
+        save(walls.develop(gpu, channel, &picture.development())?, &path)?;
         tell(format_args!("wrote {}", path.display()));
     }
     if options.room.preview {
         let mut onlooker = RoomOnlooker::outside(&walls);
         onlooker.from_m = options.room.preview_from.unwrap_or(onlooker.from_m);
         let path = folder.join("room.png");
-        save(&walls.develop_room(gpu, picture.size, &occupant, &onlooker, &picture.development())?, &path)?;
+        save(walls.develop_room(gpu, picture.size, &occupant, &onlooker, &picture.development())?, &path)?;
         tell(format_args!("wrote {}", path.display()));
     }
     Ok(())

@@ -55,7 +55,7 @@ pub fn take_sphere(
     let seen: Vec<_> = sphere.lights().into_iter().map(|radiance| Seen { radiance, stored, elapsed_s: None }).collect();
     let picture = darkroom.begin(gpu, &seen, &presentation.development).finish_one(gpu)?;
     let path = unused("sphere", "png");
-    save(&picture, &path)?;
+    save(picture, &path)?;
     Ok(path.display().to_string())
 }
 
@@ -70,7 +70,7 @@ fn take_picture(
     let mut darkroom = Darkroom::new(gpu, [texture.width(), texture.height()], texture.format());
     let picture = darkroom.develop(gpu, radiance, adaptation, development)?;
     let path = unused("photo", "png");
-    save(&picture, &path)?;
+    save(picture, &path)?;
     Ok(path.display().to_string())
 }
 
@@ -87,7 +87,7 @@ fn take_room(
     for window in 0..walls.display.windows.len() {
         let picture = walls.develop_window(gpu, window, development)?;
         let path = unused("photo", "png");
-        save(&picture, &path)?;
+        save(picture, &path)?;
         told.push(path.display().to_string());
     }
     Ok(told.join(", "))

@@ -1,8 +1,9 @@
 //! Development of light into pictures in memory.
 
 use crate::sheet::{Fetching, SCREEN_FORMAT, Sheet};
-use image::RgbaImage;
-use render::display::{Accumulator, Adaptation, Developer, Development, Seen};
+use half::f16;
+use image::{Rgb32FImage, RgbaImage};
+use render::display::{Accumulator, Adaptation, Developer, Development, LINEAR_FORMAT, Seen};
 use render::{Gpu, GpuError};
 
 /// Develops light into pictures in memory, for an eye that adapts from one to the next.
@@ -24,6 +25,12 @@ impl Darkroom {
     pub fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> Self {
         let developer = Developer::new(gpu, format, SCREEN_FORMAT);
         Self { developer, sheet: Sheet::new(gpu, size, SCREEN_FORMAT), adaptation: Adaptation::new(gpu) }
+    }
+
+    /// Darkroom that exposes light and does nothing else to it, for screens of a high dynamic range.
+    pub fn exposing(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> Self {
+        let developer = Developer::exposing(gpu, format);
+        Self { developer, sheet: Sheet::new(gpu, size, LINEAR_FORMAT), adaptation: Adaptation::new(gpu) }
     }
 
     /// Sums of samples of the pictures' size.
@@ -83,6 +90,22 @@ impl Developing {
     /// [`GpuError::Lost`] if the device went away.
     pub fn finish(self, gpu: &Gpu) -> Result<Vec<RgbaImage>, GpuError> {
         self.fetching.into_iter().map(|fetching| Ok(picture(self.size, fetching.finish(gpu)?))).collect()
+    }
+
+    /// Waits for light that was [exposed](Darkroom::exposing) alone: linear sRGB, white is 1.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away.
+    pub fn finish_exposed(self, gpu: &Gpu) -> Result<Vec<Rgb32FImage>, GpuError> {
+        let light = |fetching: Fetching| {
+            let bytes = fetching.finish(gpu)?;
+            let halves = bytes
+                .chunks_exact(8)
+                .flat_map(|texel| [0, 2, 4].map(|at| f16::from_le_bytes([texel[at], texel[at + 1]]).to_f32()));
+            let picture = Rgb32FImage::from_raw(self.size[0], self.size[1], halves.collect());
+            Ok(picture.expect("the sheet has four halves a pixel"))
+        };
+        self.fetching.into_iter().map(light).collect()
     }
 
     /// Waits for the picture of a single eye.

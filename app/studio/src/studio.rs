@@ -39,7 +39,11 @@ impl Studio {
 
     /// Makes the targets for renderers that draw in the given format.
     pub fn with_format(gpu: &Gpu, size: [u32; 2], samples: u32, format: Format) -> Self {
-        let darkroom = Darkroom::new(gpu, size, format.colour);
+        Self::with_darkroom(gpu, size, samples, format, Darkroom::new(gpu, size, format.colour))
+    }
+
+    /// Makes the targets for pictures that a darkroom of their size develops.
+    pub fn with_darkroom(gpu: &Gpu, size: [u32; 2], samples: u32, format: Format, darkroom: Darkroom) -> Self {
         Self { size, samples, radiance: Radiance::new(gpu, size, format), sum: darkroom.accumulator(gpu), darkroom }
     }
 

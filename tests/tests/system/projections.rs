@@ -183,7 +183,8 @@ fn assert_projection(projection: Projection, size: [u32; 2], stereo: bool) {
     };
     let (reach, sides) = if stereo { (STEREO_REACH, vec![-0.5, 0.5]) } else { (REACH, vec![0.0]) };
     for method in METHODS {
-        let options = MakerOptions { size, samples: 1, projection, stereo: stereo.then_some(eyes) };
+        let options =
+            MakerOptions { size, samples: 1, projection, stereo: stereo.then_some(eyes), exposes_alone: false };
         let mut maker = maker(LATTICE.build(), method, options);
         for celerity in [DVec3::ZERO, DVec3::new(-0.5, 0.2, -1.2)] {
             let gaze = gaze(celerity);
@@ -259,7 +260,13 @@ fn parallax_is_right_in_eight_directions() {
     });
     let scene = unlit(bodies.collect(), &[]);
     let gaze = Gaze { observer: Observer::default(), observer_from_eye: DQuat::IDENTITY };
-    let options = MakerOptions { size: SIZE, samples: 9, projection: Projection::Sphere, stereo: Some(eyes) };
+    let options = MakerOptions {
+        size: SIZE,
+        samples: 9,
+        projection: Projection::Sphere,
+        stereo: Some(eyes),
+        exposes_alone: false,
+    };
     for (method, tolerance) in METHODS.into_iter().zip([STRIP_PIXELS, STRIP_PIXELS, RAY_PIXELS]) {
         let mut maker = maker(scene.clone(), method, options);
         let lights = lights(&mut maker, gaze);
@@ -296,7 +303,13 @@ fn eyes_of_a_flat_picture_agree_on_the_wall() {
     for distance_m in [1.5, 3.0, 12.0] {
         let body = scene::Mesh { motion: None, ..cuboid(DVec3::NEG_Z * distance_m, 0.02 * distance_m, 0) };
         for method in METHODS {
-            let options = MakerOptions { size: SIZE, samples: 1, projection: Projection::Flat, stereo: Some(eyes) };
+            let options = MakerOptions {
+                size: SIZE,
+                samples: 1,
+                projection: Projection::Flat,
+                stereo: Some(eyes),
+                exposes_alone: false,
+            };
             let mut maker = maker(unlit(vec![body.clone()], &[]), method, options);
             let places: Vec<f64> = lights(&mut maker, gaze)
                 .iter()

@@ -21,6 +21,8 @@ pub struct Developer {
     meter: Meter,
     sum_format: wgpu::TextureFormat,
     screen_format: wgpu::TextureFormat,
+    /// True if light is exposed alone, without tone curve and gamut.
+    exposes_alone: bool,
 }
 
 /// Mean of samples: each sample is added with the weight 1/count.
@@ -40,7 +42,14 @@ impl Developer {
             meter: Meter::new(gpu),
             sum_format: radiance,
             screen_format: screen,
+            exposes_alone: false,
         }
+    }
+
+    /// Passes that expose light into [`LINEAR_FORMAT`] and do nothing else to it: white is 1, brighter is above, and
+    /// colours that a screen lacks have negative parts.
+    pub fn exposing(gpu: &Gpu, radiance: wgpu::TextureFormat) -> Self {
+        Self { exposes_alone: true, ..Self::new(gpu, radiance, LINEAR_FORMAT) }
     }
 
     /// Textures for the sum of several samples.
@@ -195,7 +204,10 @@ impl Developer {
         let look = Look { tone, gamut, gains: part.gains.is_some(), gamma: part.gamma };
         let known = self.show.iter().position(|pass| pass.0 == look);
         let index = known.unwrap_or_else(|| {
-            let [encode, tone, gamut] = overrides(self.screen_format, tone, gamut);
+            let [encode, mut tone, mut gamut] = overrides(self.screen_format, tone, gamut);
+            if self.exposes_alone {
+                (tone.1, gamut.1) = (f64::from(shaders::TONE_LINEAR), f64::from(shaders::GAMUT_OPEN));
+            }
             let gains = ("GAINS", f64::from(u8::from(look.gains)));
             let overrides = [encode, tone, gamut, gains, ("SIGNAL_POWER", look.gamma.map_or(0.0, f64::recip))];
             let bindings = [UNFILTERED, UNIFORM, READ, UNIFORM, UNFILTERED];
