@@ -8,6 +8,10 @@ mod cache;
 mod calibration;
 mod check;
 #[cfg(target_os = "linux")]
+mod farm;
+#[cfg(target_os = "linux")]
+mod films;
+#[cfg(target_os = "linux")]
 mod first_time;
 mod first_view;
 mod kiosk;
