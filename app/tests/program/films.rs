@@ -9,7 +9,8 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const SMALL: [&str; 9] = ["render", "--scene", "lattice", "--size", "64x36", "--samples", "1", "--beta", "0.3,0,-0.6"];
+const SMALL: [&str; 9] = ["render", "--scene", "lattice", "--size", "96x64", "--samples", "1", "--beta", "0.3,0,-0.6"];
+const PIXELS: usize = 96 * 64;
 /// Largest mean difference of a colour after a codec that loses something, codes: edges share colours among pixels.
 const CODED: f64 = 12.0;
 
