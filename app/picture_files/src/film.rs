@@ -172,7 +172,7 @@ impl Sink {
 
 /// Arguments of ffmpeg for the pixels: even sides, which players need where they share colours among four pixels, and
 /// the colours of high-definition video, by name, so that every player shows the same.
-fn pixels(form: FilmForm) -> Vec<&'static str> {
+fn pixels(form: FilmForm) -> Vec<String> {
     let curve = match form.hdr {
         None => "bt709",
         Some(HdrCurve::Pq) => "smpte2084",
@@ -181,13 +181,16 @@ fn pixels(form: FilmForm) -> Vec<&'static str> {
     let primaries = if form.hdr.is_some() { "bt2020" } else { "bt709" };
     let named = ["-color_primaries", primaries, "-color_trc", curve];
     if form.codec.keeps_rgb() {
-        return named.to_vec();
+        return named.map(str::to_owned).to_vec();
     }
-    let (filter, matrix) = match form.hdr {
-        None => ("pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "bt709"),
-        Some(_) => ("pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt2020:out_range=tv", "bt2020nc"),
-    };
-    [["-vf", filter].as_slice(), &named, &["-colorspace", matrix, "-color_range", "tv"]].concat()
+    let (scaled, matrix) = if form.hdr.is_some() { ("bt2020", "bt2020nc") } else { ("bt709", "bt709") };
+    // Some encoders believe what the command says of the colours, others what the pictures say.
+    let filter = format!(
+        "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix={scaled}:out_range=tv,\
+         setparams=range=tv:color_primaries={primaries}:color_trc={curve}:colorspace={matrix}"
+    );
+    let named = named.into_iter().chain(["-colorspace", matrix, "-color_range", "tv"]).map(str::to_owned);
+    ["-vf".to_owned(), filter].into_iter().chain(named).collect()
 }
 
 /// Removes the numbered pictures of an earlier film, which a shorter one would end with.
