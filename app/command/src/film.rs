@@ -38,8 +38,8 @@ pub struct FilmOptions {
     /// Codec of a film [default: h264; prores in a .mov file].
     #[arg(long, value_enum, value_name = "CODEC")]
     pub codec: Option<Codec>,
-    /// Write a film of a high dynamic range, in the colours of Rec. 2020: white is 203 cd/m², and what is brighter shines;
-    /// by h265 without --codec.
+    /// Write a film of a high dynamic range, in the colours of Rec. 2020: white is 203 cd/m², and what is brighter
+    /// shines; by h265 without --codec.
     ///
     /// Light is exposed as --exposure says; --tone and --gamut are for screens without that range.
     #[arg(long, value_enum, value_name = "SIGNAL")]

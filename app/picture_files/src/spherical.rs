@@ -145,11 +145,14 @@ fn with_tags(index: &[u8], tags: &SphericalTags) -> io::Result<Vec<u8>> {
     if tracks == 1 { Ok(tagged) } else { Err(invalid("no single video track")) }
 }
 
+/// Replacement of a box of a kind, with its head; `None` keeps it.
+type BoxChange<'a> = dyn FnMut(&[u8; 4], &[u8]) -> io::Result<Option<Vec<u8>>> + 'a;
+
 /// A box whose children are replaced where `change` says so; `skip`: bytes before the children.
 fn rebuilt(
     parent: &[u8],
     skip: usize,
-    change: &mut dyn FnMut(&[u8; 4], &[u8]) -> io::Result<Option<Vec<u8>>>,
+    change: &mut BoxChange<'_>,
 ) -> io::Result<Vec<u8>> {
     let inner = parent.get(skip..).ok_or_else(|| invalid("a damaged box"))?;
     let mut made = parent[..skip].to_vec();

@@ -79,7 +79,7 @@ pub fn reel(
                 }
                 break;
             }
-            Err(error) if reel.len() == 0 => return Err(error.into()),
+            Err(error) if reel.is_empty() => return Err(error.into()),
             Err(error) => {
                 tell(error);
                 break;
