@@ -149,11 +149,7 @@ fn with_tags(index: &[u8], tags: &SphericalTags) -> io::Result<Vec<u8>> {
 type BoxChange<'a> = dyn FnMut(&[u8; 4], &[u8]) -> io::Result<Option<Vec<u8>>> + 'a;
 
 /// A box whose children are replaced where `change` says so; `skip`: bytes before the children.
-fn rebuilt(
-    parent: &[u8],
-    skip: usize,
-    change: &mut BoxChange<'_>,
-) -> io::Result<Vec<u8>> {
+fn rebuilt(parent: &[u8], skip: usize, change: &mut BoxChange<'_>) -> io::Result<Vec<u8>> {
     let inner = parent.get(skip..).ok_or_else(|| invalid("a damaged box"))?;
     let mut made = parent[..skip].to_vec();
     for (kind, range) in children(inner)? {
