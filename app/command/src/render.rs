@@ -16,7 +16,7 @@ use super::values::{self, Output};
 use super::world::WorldOptions;
 use filming::{FrameFile, StereoLayout};
 use scene::Start;
-use view::{OutsideView, Places, RendererName};
+use view::{OutsideView, Places, Projection, RendererName};
 
 /// Sine of the angle between `--look` and `--up` below which they count as parallel.
 const PARALLEL: f64 = 1e-9;
@@ -174,8 +174,20 @@ impl RenderOptions {
         if look.zip(up).is_some_and(|(look, up)| look.cross(up).length() < PARALLEL) {
             return Err("--up must not be parallel to --look; give another --up, or leave it out".to_owned());
         }
-        if let Some(option) = self.rays.given().filter(|_| self.dial.renderer != RendererName::Raytrace) {
-            return Err(format!("{option} is for --renderer raytrace; leave one out or add the other"));
+        let traces = self.dial.renderer == RendererName::Raytrace;
+        if self.rays.bounces.is_some() && !traces {
+            return Err("--bounces is for --renderer raytrace; leave one out or add the other".to_owned());
+        }
+        let flat = self.projection.projection == Projection::Flat && self.projection.stereo.is_none();
+        if let Some(option) = self.rays.of_lens() {
+            if !traces && !flat {
+                return Err(format!(
+                    "{option} with --projection or --stereo is for --renderer raytrace; add it, or leave one out"
+                ));
+            }
+            if self.outside.is_some() || self.room.display.is_some() {
+                return Err(format!("{option} is for what one eye sees; leave --outside, --display or {option} out"));
+            }
         }
         if self.outside.is_some() && self.room.display.is_some() {
             return Err(

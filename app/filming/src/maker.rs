@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use studio::{Darkroom, Developing, Studio, light, upload};
 use thiserror::Error;
 use trace::{RayTracer, Traced};
-use view::{Field, Framing, Projection, Shot, TurningEye};
+use view::{Field, Framing, Optics, Projection, Shot, TurningEye};
 use walls::{ProjectedPicture, ProjectedView, Quality, StereoEyes};
 
 /// Reason why a picture was not made.
@@ -35,11 +35,23 @@ pub struct MakerOptions {
     pub projection: Projection,
     /// Eyes of a stereo picture.
     pub stereo: Option<StereoEyes>,
+    /// Lens of the camera.
+    pub optics: Optics,
     /// True if light is exposed alone, for a screen of a high dynamic range.
     pub exposes_alone: bool,
 }
 
 impl MakerOptions {
+    /// Shots of a flat picture that is drawn once for each place of the lens and moment of the exposure; `None` if one
+    /// is enough.
+    fn many(&self, shot: &Shot, view: &FilmView) -> Option<Vec<Shot>> {
+        if shot.outside.is_some() || self.optics.is_pinhole() && view.exposure.is_instant() {
+            return None;
+        }
+        let samples = self.samples.max(Optics::LEAST_SAMPLES);
+        Some((0..samples).map(|sample| self.optics.shot(shot, &view.exposure, self.size, sample)).collect())
+    }
+
     fn darkroom(&self, gpu: &Gpu) -> Darkroom {
         let format = Studio::format(gpu).colour;
         if self.exposes_alone {
@@ -140,7 +152,10 @@ impl PictureMaker {
     /// [`GpuError::Lost`] if the device went away.
     pub fn submit(&mut self, gpu: &Gpu, view: &FilmView) -> Result<Pending, GpuError> {
         match &mut self.way {
-            Way::Flat(renderer, _) => renderer.submit(gpu, &view.gaze.observer, view.effects),
+            Way::Flat(renderer, _) if self.options.many(&view.shot(), view).is_none() => {
+                renderer.submit(gpu, &view.gaze.observer, view.effects)
+            }
+            Way::Flat(..) => Ok(Pending::default()),
             Way::Projected(renderer, picture, _) => picture.submit(gpu, renderer, &projected(view)),
             Way::Rays(..) => Ok(Pending::default()),
         }
@@ -163,6 +178,10 @@ impl PictureMaker {
         match &mut self.way {
             Way::Flat(renderer, studio) => {
                 let shot = view.drawn_shot();
+                if let Some(shots) = options.many(&shot, view) {
+                    let developing = studio.begin_of_many(gpu, renderer, &shots, &development, elapsed_s)?;
+                    return Ok(Taking { developing, interrupted: None });
+                }
                 let developing = studio.begin(gpu, renderer, &shot, pending, &development, elapsed_s)?;
                 Ok(Taking { developing, interrupted: None })
             }
@@ -199,7 +218,14 @@ impl PictureMaker {
     ) -> Result<(Vec<Rgb32FImage>, Option<TracedPart>), MakerError> {
         let options = self.options;
         match &mut self.way {
-            Way::Flat(renderer, studio) => Ok((vec![studio.expose(gpu, renderer, &view.drawn_shot(), pending)?], None)),
+            Way::Flat(renderer, studio) => {
+                let shot = view.drawn_shot();
+                let light = match options.many(&shot, view) {
+                    Some(shots) => studio.expose_many(gpu, renderer, &shots)?,
+                    None => studio.expose(gpu, renderer, &shot, pending)?,
+                };
+                Ok((vec![light], None))
+            }
             Way::Projected(renderer, picture, _) => {
                 picture.draw(gpu, renderer, &projected(view), pending)?;
                 let stored = picture.stored();
@@ -241,9 +267,11 @@ fn trace(
     for aside_m in stereo.map_or(vec![None], |eyes| [-0.5, 0.5].map(|side| Some(side * eyes.separation_m)).to_vec()) {
         let mut shot = view.shot();
         let mut eye = None;
+        let mut exposure = view.exposure.clone();
         if let (Some(eyes), Some(aside_m)) = (stereo, aside_m) {
             if projection == Projection::Flat {
                 shot = on_wall(&shot, size, aside_m, eyes.wall_m);
+                exposure = exposure.aside(glam::DVec3::X * aside_m);
             } else {
                 let upright = if matches!(projection, Projection::Fisheye { .. } | Projection::Cube) {
                     eyes.upright
@@ -254,6 +282,7 @@ fn trace(
             }
         }
         tracer.framing = Framing { projection, eye };
+        tracer.exposure = exposure;
         let picture = tracer.trace(&shot, size, samples, stop, tile_done);
         if picture.done == 0 {
             return Err(MakerError::Interrupted);

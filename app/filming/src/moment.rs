@@ -3,7 +3,7 @@
 use presentation::Presentation;
 use render::display::Development;
 use std::sync::Arc;
-use view::{Effects, Gaze, OutsideView, Shot};
+use view::{Effects, Exposure, Gaze, OutsideView, Shot};
 
 /// How a moment is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,13 +27,15 @@ pub struct Moment<T = ()> {
     pub own_s: f64,
     /// How it is shown.
     pub look: Look,
+    /// Worldline of the eye while the shutter is open.
+    pub exposure: Exposure,
     /// What is written over it.
     pub told: Option<Arc<T>>,
 }
 
 impl<T> Clone for Moment<T> {
     fn clone(&self) -> Self {
-        Self { told: self.told.clone(), ..*self }
+        Self { told: self.told.clone(), exposure: self.exposure.clone(), ..*self }
     }
 }
 
@@ -48,7 +50,8 @@ impl<T> Moment<T> {
     /// once.
     pub fn view(&self, elapsed_s: Option<f64>) -> FilmView {
         let Look { effects, fov_deg, development, outside } = self.look;
-        FilmView { gaze: self.gaze, effects, fov_deg, development, outside, elapsed_s }
+        let exposure = self.exposure.clone();
+        FilmView { gaze: self.gaze, effects, fov_deg, development, outside, exposure, elapsed_s }
     }
 }
 
@@ -61,7 +64,7 @@ impl Look {
 }
 
 /// Eye, direction and look of one picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FilmView {
     /// Point midway between the eyes, and the direction of the picture's middle.
     pub gaze: Gaze,
@@ -73,6 +76,8 @@ pub struct FilmView {
     pub development: Development,
     /// Camera outside of the eye.
     pub outside: Option<OutsideView>,
+    /// Worldline of the eye while the shutter is open.
+    pub exposure: Exposure,
     /// Proper time since the picture before, seconds, for an eye that adapts; `None` if it adapts at once.
     pub elapsed_s: Option<f64>,
 }

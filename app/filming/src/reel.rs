@@ -7,6 +7,7 @@ use input::{Action, Nanos, SECOND};
 use presentation::Presentation;
 use ride::{FrameTaker, RideFrame, ShownTimes};
 use std::sync::Arc;
+use view::Exposure;
 
 /// Observer at the time of each picture of a film, taken on the way from one frame of a ride to the next. Memory is
 /// taken for what differs: pictures of a ride that waits share one moment.
@@ -80,7 +81,13 @@ impl<T> Reel<T> {
             }
         }
         let (gaze, outside) = self.outside.follow(&frame.head_gaze(), &self.shown);
-        Moment { gaze, own_s: frame.vehicle.odometer().own_s, look: Look::of(&self.shown, outside), told: None }
+        Moment {
+            gaze,
+            own_s: frame.vehicle.odometer().own_s,
+            look: Look::of(&self.shown, outside),
+            exposure: Exposure::default(),
+            told: None,
+        }
     }
 
     /// Adds a picture of a moment.
@@ -115,6 +122,25 @@ impl<T> Reel<T> {
     /// Moments of all pictures, one after the other.
     pub fn pictures(self) -> impl Iterator<Item = Moment<T>> {
         self.moments.into_iter().flat_map(|(moment, pictures)| std::iter::repeat_n(moment, pictures as usize))
+    }
+
+    /// Moments of pictures through a shutter that is open for `shutter_s` seconds of own time. The reel must have
+    /// `finer` moments for each picture: the eye's worldline while the shutter is open is taken from them.
+    pub fn exposed(self, finer: u64, shutter_s: f64) -> impl Iterator<Item = Moment<T>> {
+        /// Parts of an exposure between gazes.
+        const PARTS: i32 = 8;
+        let rate = self.frames_per_second;
+        let all: Vec<Moment<T>> = self.pictures().collect();
+        let gaze = move |all: &[Moment<T>], place: f64| {
+            let place = place.clamp(0.0, (all.len() - 1) as f64);
+            let first = place.floor() as usize;
+            all[first].gaze.towards(&all[(first + 1).min(all.len() - 1)].gaze, place - first as f64)
+        };
+        (0..all.len()).step_by(finer as usize).map(move |number| {
+            let share = |part: i32| (f64::from(part) / f64::from(PARTS) - 0.5) * shutter_s * rate;
+            let gazes = (0..=PARTS).map(|part| gaze(&all, number as f64 + share(part))).collect();
+            Moment { exposure: Exposure::along(gazes), ..all[number].clone() }
+        })
     }
 
     /// Moments of `count` pictures, evenly spread, each from the middle of its part; of all pictures if there are

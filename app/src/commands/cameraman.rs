@@ -23,8 +23,8 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use studio::{Studio, largest_side};
-use trace::{Optics, RayTracer};
-use view::{Dial, Occasion, Projection, RendererName};
+use trace::RayTracer;
+use view::{Dial, Occasion, Optics, Projection, RendererName};
 use walls::StereoEyes;
 
 /// Dial of pictures that are kept.
@@ -39,7 +39,7 @@ pub struct Equipment {
     pub projection: Projection,
     /// Eyes of a stereo picture, and the arrangement of their pictures.
     pub stereo: Option<(StereoEyes, StereoLayout)>,
-    /// Lens and shutter, for rays.
+    /// Lens.
     pub optics: Optics,
     /// Largest number of turns of a ray.
     pub bounces: u32,
@@ -86,7 +86,7 @@ impl<'gpu> Cameraman<'gpu> {
         let Equipment { projection, stereo, optics, bounces, hdr } = equipment;
         let stereo = stereo.map(|(eyes, _)| eyes);
         let (samples, exposes_alone) = (picture.samples, hdr.is_some());
-        let options = MakerOptions { size, samples, projection, stereo, exposes_alone };
+        let options = MakerOptions { size, samples, projection, stereo, optics, exposes_alone };
         if dial.renderer == RendererName::Raytrace {
             if interruption().load(Ordering::Relaxed) {
                 return Err(Error::Interrupted);

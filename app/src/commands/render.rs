@@ -21,12 +21,15 @@ use render::Gpu;
 use scene::Start;
 use std::path::Path;
 use std::sync::atomic::Ordering;
-use trace::{CameraLens, Optics};
-use view::{Camera, Gaze};
+use view::{Camera, CameraLens, Exposure, Gaze, Optics};
 use walls::StereoEyes;
 
 /// Length of a film without `--seconds`, seconds of proper time.
 const FILM_SECONDS: f64 = 10.0;
+/// Number of gazes along a path while a shutter is open.
+const GAZES: u32 = 9;
+/// Number of moments of a recorded ride for each picture, where a shutter is open.
+const MOMENTS: u64 = 8;
 
 /// Carries out `rapidity render`.
 ///
@@ -56,7 +59,8 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     let moment = |number: u64| {
         let own_s = number as f64 / options.film.frames_per_second();
         let gaze = inertial(&options.viewpoint, start, own_s * speed_of_light);
-        Moment { gaze, own_s, look, told: None }
+        let exposure = Exposure::straight(&gaze, options.rays.shutter.unwrap_or(0.0) * speed_of_light);
+        Moment { gaze, own_s, look, exposure, told: None }
     };
     let first = moment(0);
     let due = match &options.film.frames {
@@ -68,7 +72,7 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
         return Ok(());
     }
     let dial = dial_of_stills(&options.dial, &options.picture);
-    let equipment = equipment(options, speed_of_light, upright(&first.gaze));
+    let equipment = equipment(options, upright(&first.gaze));
     let mut camera = Cameraman::new(&gpu, scene, &options.picture, dial, equipment)?;
     match &options.out {
         Output::Picture(path) => camera.still(&first, path, FrameFile::Png),
@@ -87,15 +91,19 @@ fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path, part: Far
     let shown = |start: &Start| (options.picture.presentation(start), options.picture.is_given);
     // A film of no length has its first picture.
     let seconds = options.film.seconds.map(|seconds| if seconds > 0.0 { seconds } else { 0.5 / rate });
-    let ridden = reel::reel(recording, &options.world, (rate, seconds), shown)?;
-    let Ridden { scene, speed_of_light, reel } = ridden;
+    // A shutter needs the ride between the pictures as well.
+    let shutter_s = options.rays.shutter.unwrap_or(0.0);
+    let finer = if shutter_s > 0.0 { MOMENTS } else { 1 };
+    let ridden = reel::reel(recording, &options.world, (rate * finer as f64, seconds), shown)?;
+    let Ridden { scene, reel, .. } = ridden;
     let turn = rider_look(&options.viewpoint);
     let seen = |mut moment: Moment<Told>| {
         moment.look.outside = options.outside.or(moment.look.outside);
         moment.gaze.observer_from_eye *= turn;
+        moment.exposure = moment.exposure.turned(turn);
         moment
     };
-    let count = reel.len();
+    let count = reel.len().div_ceil(finer);
     let due = match &options.film.frames {
         Some(numbers) => numbers.clone(),
         None => FrameNumbers::first(count),
@@ -108,7 +116,7 @@ fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path, part: Far
         return Ok(());
     }
     let dial = dial_of_stills(&options.dial, &options.picture);
-    let equipment = equipment(options, speed_of_light, turn.inverse() * DVec3::Y);
+    let equipment = equipment(options, turn.inverse() * DVec3::Y);
     let mut camera = Cameraman::new(gpu, scene, &options.picture, dial, equipment)?;
     let last = || reel.last().map(seen).ok_or(Error::NothingRidden);
     match &options.out {
@@ -117,11 +125,15 @@ fn recorded_ride(options: &RenderOptions, gpu: &Gpu, recording: &Path, part: Far
         Output::Folder(path) => Ok(writable(path)?),
         out @ (Output::Film(_) | Output::Sequence(..)) => {
             let mut numbers = due.numbers.iter().peekable();
-            let pictures = reel
-                .pictures()
-                .zip(0..)
-                .filter_map(|(moment, number)| numbers.next_if_eq(&&number).map(|number| Ok((*number, seen(moment)))));
-            camera.film(pictures, due.numbers.len() as u64, film_out(options, out))
+            let pick = |(moment, number): (Moment<Told>, u64)| {
+                numbers.next_if_eq(&&number).map(|number| Ok((*number, seen(moment))))
+            };
+            let (count, out) = (due.numbers.len() as u64, film_out(options, out));
+            if finer > 1 {
+                camera.film(reel.exposed(finer, shutter_s).zip(0..).filter_map(pick), count, out)
+            } else {
+                camera.film(reel.pictures().zip(0..).filter_map(pick), count, out)
+            }
         }
     }
 }
@@ -144,14 +156,22 @@ fn path_film(options: &RenderOptions, gpu: &Gpu, file: &Path, part: FarmPart) ->
     let dial = dial_of_stills(&options.dial, &options.picture);
     let is_still = matches!(options.out, Output::Picture(_) | Output::Light(_));
     let seen = |number: u64| {
-        let own_s = number as f64 / rate;
-        let at = if is_still { options.film.seconds.unwrap_or(0.0) } else { own_s };
-        (path.at(at), own_s)
+        let own_s = if is_still { options.film.seconds.unwrap_or(0.0) } else { number as f64 / rate };
+        (path.at(own_s), own_s)
     };
+    let shutter_s = options.rays.shutter.unwrap_or(0.0);
     let moment = |view: &PathView, own_s: f64, start: &Start| {
         let look = Look::of(&options.picture.presentation(start), options.outside);
         let fov_deg = options.picture.fov.or(view.fov_deg).unwrap_or(look.fov_deg);
-        Moment { gaze: view.gaze, own_s, look: Look { fov_deg, ..look }, told: None }
+        // A cut to another part of the path is not blurred.
+        let gaze = |share: f64| {
+            let moment = path.at(own_s + share * shutter_s);
+            if moment.part == view.part { moment.gaze } else { view.gaze }
+        };
+        let parts = if shutter_s > 0.0 { GAZES } else { 0 };
+        let share = |gaze: u32| f64::from(gaze) / f64::from(GAZES - 1) - 0.5;
+        let exposure = Exposure::along((0..parts).map(|number| gaze(share(number))).collect());
+        Moment { gaze: view.gaze, own_s, look: Look { fov_deg, ..look }, exposure, told: None }
     };
     let mut roll = None;
     let mut numbers = due.numbers.as_slice();
@@ -162,8 +182,8 @@ fn path_film(options: &RenderOptions, gpu: &Gpu, file: &Path, part: FarmPart) ->
         let (here, count) =
             (scene_of(*number), numbers.iter().take_while(|next| scene_of(**next) == scene_of(*number)));
         let count = count.count();
-        let World { scene, speed_of_light_m_s } = worlds.load(here)?;
-        let (start, equipment) = (scene.start, equipment(options, speed_of_light_m_s, upright));
+        let World { scene, .. } = worlds.load(here)?;
+        let (start, equipment) = (scene.start, equipment(options, upright));
         let mut camera = Cameraman::new(gpu, scene, &options.picture, dial, equipment)?;
         let moments = numbers[..count].iter().map(|number| {
             let (view, own_s) = seen(*number);
@@ -172,7 +192,8 @@ fn path_film(options: &RenderOptions, gpu: &Gpu, file: &Path, part: FarmPart) ->
         match &options.out {
             Output::Picture(path) | Output::Light(path) => {
                 let kind = if options.writes_light() { FrameFile::Exr } else { FrameFile::Png };
-                return camera.still(&moment(&seen(0).0, 0.0, &start), path, kind);
+                let (view, own_s) = seen(0);
+                return camera.still(&moment(&view, own_s, &start), path, kind);
             }
             out => {
                 let (out, all) = (film_out(options, out), due.numbers.len() as u64);
@@ -295,14 +316,14 @@ fn film_out<'a>(options: &RenderOptions, out: &'a Output) -> FilmOut<'a> {
 }
 
 /// Projection, eyes and lens. `upright`: axis of the head's turns, axes of the picture's middle.
-fn equipment(options: &RenderOptions, speed_of_light: f64, upright: DVec3) -> Equipment {
+fn equipment(options: &RenderOptions, upright: DVec3) -> Equipment {
     let (rays, projection) = (&options.rays, &options.projection);
     let lens = rays.aperture.zip(rays.focus).map(|(aperture_m, focus_m)| CameraLens { aperture_m, focus_m });
     let (separation_m, wall_m) = (projection.eye_separation_m(), projection.wall_m());
     Equipment {
         projection: projection.projection,
         stereo: projection.stereo.map(|layout| (StereoEyes { separation_m, wall_m, upright }, layout)),
-        optics: Optics { lens, exposure_m: rays.shutter.unwrap_or(0.0) * speed_of_light },
+        optics: Optics { lens },
         bounces: rays.bounces.unwrap_or(0),
         hdr: options.film.hdr,
     }

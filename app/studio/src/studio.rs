@@ -150,6 +150,61 @@ impl Studio {
         Ok(texels(gpu, self.radiance.result())?.into_iter().map(shown).collect())
     }
 
+    /// Begins to take a picture that is drawn once for each of these shots, which share its light evenly: from the
+    /// places of a lens, at the moments of an exposure.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away.
+    pub fn begin_of_many(
+        &mut self,
+        gpu: &Gpu,
+        renderer: &mut SceneRenderer,
+        shots: &[Shot],
+        development: &Development,
+        elapsed_s: Option<f64>,
+    ) -> Result<Developing, GpuError> {
+        let stored = self.draw_many(gpu, renderer, shots)?;
+        let radiance = self.sum.result();
+        Ok(self.darkroom.begin(gpu, &[Seen { radiance, stored, elapsed_s }], development))
+    }
+
+    /// Light of a picture that is drawn once for each of these shots.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device went away.
+    pub fn expose_many(
+        &mut self,
+        gpu: &Gpu,
+        renderer: &mut SceneRenderer,
+        shots: &[Shot],
+    ) -> Result<Rgb32FImage, GpuError> {
+        let stored = self.draw_many(gpu, renderer, shots)?;
+        light(gpu, self.sum.result(), &stored)
+    }
+
+    fn draw_many(&mut self, gpu: &Gpu, renderer: &mut SceneRenderer, shots: &[Shot]) -> Result<Stored, GpuError> {
+        let count = shots.len() as u32;
+        self.sum.restart();
+        let mut stored = Stored::UNSHIFTED;
+        let submit = |renderer: &mut SceneRenderer, shot: &Shot| renderer.submit(gpu, &shot.observer, shot.effects);
+        let mut pending = shots.first().map(|shot| submit(renderer, shot)).transpose()?;
+        for (shot, sample) in shots.iter().zip(0..) {
+            let own = pending.take().unwrap_or_default();
+            // The next eye's photo-surface is worked out while this one's is drawn.
+            pending = shots.get(sample as usize + 1).map(|next| submit(renderer, next)).transpose()?;
+            renderer.show(gpu, own)?;
+            renderer.prepare(gpu, shot, self.size);
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            renderer.draw(gpu, &mut encoder, &self.radiance, shot, PixelSample::of(sample, count));
+            self.darkroom.add(gpu, &mut encoder, &mut self.sum, self.radiance.result(), count);
+            gpu.queue.submit([encoder.finish()]);
+            // One of them moves, or none does.
+            let own = renderer.stored(shot);
+            stored = Stored { shifted: stored.shifted || own.shifted, ..own };
+        }
+        Ok(stored)
+    }
+
     /// Draws all samples, and adds them up.
     fn draw(
         &mut self,

@@ -21,7 +21,6 @@ mod bodies;
 mod curve;
 mod finish;
 mod hit;
-mod lens;
 mod light;
 mod observer;
 mod path;
@@ -31,5 +30,4 @@ mod tracer;
 mod triangles;
 
 pub use hit::TracedPlace;
-pub use lens::{CameraLens, Optics};
 pub use tracer::{RayTracer, Traced};

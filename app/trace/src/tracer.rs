@@ -1,7 +1,6 @@
 //! Pictures traced tile by tile, from the middle outwards.
 
 use crate::hit::TracedPlace;
-use crate::lens::Optics;
 use crate::light::ObservedLight;
 use crate::path::{LitObserver, LitScene};
 use glam::{DVec2, DVec3};
@@ -10,7 +9,7 @@ use physics::Celerity;
 use rayon::prelude::*;
 use scene::{Scene, SceneFault};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use view::{Framing, PlaceSight, Shot, Stored, sample_offset};
+use view::{Exposure, Framing, Optics, PlaceSight, Shot, Stored, sample_offset};
 
 /// Side of a tile, pixels. Each tile is traced in one go.
 const TILE: u32 = 16;
@@ -21,6 +20,8 @@ pub struct RayTracer {
     optics: Optics,
     /// Way in which pictures take their directions from the eye.
     pub framing: Framing,
+    /// Worldline of the eye while the shutter is open.
+    pub exposure: Exposure,
     /// Largest number of turns of a ray.
     bounces: u32,
 }
@@ -71,10 +72,16 @@ impl RayTracer {
     pub fn new(scene: Scene, background: Option<[f32; 3]>, exact_light: bool) -> Result<Self, SceneFault> {
         scene.validate()?;
         let scene = LitScene::new(scene, background, exact_light);
-        Ok(Self { scene, optics: Optics::default(), framing: Framing::default(), bounces: 0 })
+        Ok(Self {
+            scene,
+            optics: Optics::default(),
+            framing: Framing::default(),
+            exposure: Exposure::default(),
+            bounces: 0,
+        })
     }
 
-    /// Tracer with this lens and shutter.
+    /// Tracer with this lens.
     #[must_use]
     pub fn with_optics(self, optics: Optics) -> Self {
         Self { optics, ..self }
@@ -147,7 +154,7 @@ impl RayTracer {
             if sight.from_m == DVec3::ZERO {
                 return self.scene.place(&observer, seen);
             }
-            let (eye, seen) = Optics::default().look(shot, sight, *pixel, 0);
+            let (eye, seen) = Optics::default().look(shot, &Exposure::default(), sight, *pixel, 0);
             self.scene.place(&self.scene.observer(&eye, shot.effects.places), seen)
         };
         pixels.par_iter().map(place).collect()
@@ -173,11 +180,11 @@ impl RayTracer {
         for sample in 0..samples {
             // Where the picture shows nothing, it is black.
             let Some(sight) = self.sight(shot, size, pixel, sample_offset(sample, samples)) else { continue };
-            if self.optics.is_pinhole() && sight.from_m == DVec3::ZERO {
+            if self.optics.is_pinhole() && self.exposure.is_instant() && sight.from_m == DVec3::ZERO {
                 let seen = (shot.camera.observer_from_eye * sight.ahead).normalize();
                 sum += self.scene.seen(observer, seen, effects, bounces);
             } else {
-                let (observer, seen) = self.optics.look(shot, sight, pixel, sample);
+                let (observer, seen) = self.optics.look(shot, &self.exposure, sight, pixel, sample);
                 let observer = self.scene.observer(&observer, effects.places);
                 sum += self.scene.seen(&observer, seen, effects, bounces);
             }

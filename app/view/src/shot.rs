@@ -4,7 +4,7 @@ use crate::camera::{Camera, Field};
 use crate::effects::Effects;
 use crate::outside::{Colouring, OutsideCamera, OutsideView};
 use glam::{DQuat, DVec2, DVec3};
-use physics::Observer;
+use physics::{Celerity, Event, Observer};
 
 /// Height of a standing visitor's eyes above the ground, metres.
 pub const EYE_HEIGHT_M: f64 = 1.6;
@@ -36,6 +36,20 @@ pub struct Shot {
 }
 
 impl Gaze {
+    /// Gaze at a share of the way to another, a moment later: events and celerities go in a straight line, directions
+    /// turn evenly.
+    #[must_use]
+    pub fn towards(&self, later: &Self, share: f64) -> Self {
+        let (here, there) = (&self.observer, &later.observer);
+        let ct = here.event.ct + share * (there.event.ct - here.event.ct);
+        let event = Event { ct, position: here.event.position.lerp(there.event.position, share) };
+        // Between two finite celerities there is a finite one.
+        let celerity = Celerity::new(here.celerity.vector().lerp(there.celerity.vector(), share));
+        let celerity = celerity.unwrap_or(here.celerity);
+        let observer_from_eye = self.observer_from_eye.slerp(later.observer_from_eye, share);
+        Self { observer: Observer { event, celerity }, observer_from_eye }
+    }
+
     /// Picture straight ahead with square pixels and a vertical field of view of `fov_y_deg` degrees.
     pub fn shot(&self, fov_y_deg: f64, effects: Effects) -> Shot {
         let field = Field::Ahead { fov_y_rad: fov_y_deg.to_radians() };

@@ -12,8 +12,8 @@ use scene::motion::{Motion, Uniform};
 use scene::{Material, Mesh, Scene};
 use std::sync::atomic::AtomicBool;
 use system_tests::view::{View, middle};
-use trace::{CameraLens, Optics, RayTracer, Traced};
-use view::{Effects, Shot};
+use trace::{RayTracer, Traced};
+use view::{CameraLens, Effects, Exposure, Gaze, Optics, Shot};
 
 const BLACK: Option<[f32; 3]> = Some([0.0; 3]);
 
@@ -52,8 +52,18 @@ fn shot(view: &View, celerity: Celerity) -> Shot {
     view.shot(&Observer { event: Event::default(), celerity }, Effects::GEOMETRY)
 }
 
-fn trace(scene: &Scene, optics: Optics, shot: &Shot, size: [u32; 2], samples: u32) -> Traced {
-    let tracer = RayTracer::new(scene.clone(), BLACK, false).unwrap().with_optics(optics);
+/// Lens and length of the exposure of a straight worldline, metres of light travel.
+#[derive(Clone, Copy, Default)]
+struct TriedCamera {
+    lens: Option<CameraLens>,
+    exposure_m: f64,
+}
+
+fn trace(scene: &Scene, camera: TriedCamera, shot: &Shot, size: [u32; 2], samples: u32) -> Traced {
+    let TriedCamera { lens, exposure_m } = camera;
+    let mut tracer = RayTracer::new(scene.clone(), BLACK, false).unwrap().with_optics(Optics { lens });
+    let gaze = Gaze { observer: shot.observer, observer_from_eye: shot.camera.observer_from_eye };
+    tracer.exposure = Exposure::straight(&gaze, exposure_m);
     tracer.trace(shot, size, samples, &AtomicBool::new(false), || {})
 }
 
@@ -91,8 +101,8 @@ fn what_is_not_in_focus_is_a_circle_of_the_lenss_size() {
         let aperture_m = 36.0 / per_metre;
         let scene = disc(centre, (2.0 * distance / view.focal_length()) as f32);
         let shot = shot(&view, celerity);
-        let sharp = spread(&trace(&scene, Optics::default(), &shot, SIZE, 64));
-        let optics = Optics { lens: Some(CameraLens { aperture_m, focus_m }), exposure_m: 0.0 };
+        let sharp = spread(&trace(&scene, TriedCamera::default(), &shot, SIZE, 64));
+        let optics = TriedCamera { lens: Some(CameraLens { aperture_m, focus_m }), exposure_m: 0.0 };
         let blurred = spread(&trace(&scene, optics, &shot, SIZE, 384));
         // An even circle has a mean square of half its radius squared, and spreads add up.
         let diameter = (8.0 * (blurred - sharp)).sqrt();
@@ -111,8 +121,8 @@ fn what_is_in_focus_stays_sharp() {
     let scene = disc(centre, 0.1);
     let lens = CameraLens { aperture_m: 0.5, focus_m: 4.0 * doppler };
     let shot = shot(&view, celerity);
-    let sharp = spread(&trace(&scene, Optics::default(), &shot, SIZE, 64));
-    let seen = spread(&trace(&scene, Optics { lens: Some(lens), exposure_m: 0.0 }, &shot, SIZE, 64));
+    let sharp = spread(&trace(&scene, TriedCamera::default(), &shot, SIZE, 64));
+    let seen = spread(&trace(&scene, TriedCamera { lens: Some(lens), exposure_m: 0.0 }, &shot, SIZE, 64));
     assert!((seen / sharp - 1.0).abs() < 0.02, "{seen} {sharp}");
 }
 
@@ -130,7 +140,7 @@ fn what_crosses_the_picture_leaves_a_streak() {
     const SIZE: [u32; 2] = [160, 24];
     const FAR_M: f64 = 10.0;
     const EXPOSURE_M: f64 = 4.0;
-    let optics = Optics { lens: None, exposure_m: EXPOSURE_M };
+    let optics = TriedCamera { lens: None, exposure_m: EXPOSURE_M };
     let view = View { look: DVec3::NEG_Z, up: DVec3::Y, fov_degrees: 12.0, size: SIZE };
     let column = |place: DVec3| 0.5 * f64::from(SIZE[0]) + place.x / -place.z * view.focal_length();
     let radius = 0.1;
@@ -160,7 +170,7 @@ fn what_crosses_the_picture_leaves_a_streak() {
     let celerity = at(DVec3::X * 0.6);
     let view = View { look: DVec3::new(0.75, 0.0, -1.0), up: DVec3::Y, fov_degrees: 14.0, size: SIZE };
     let scene = disc(DVec3::new(0.0, 0.0, -FAR_M), radius as f32);
-    let traced = trace(&scene, Optics { lens: None, exposure_m: 2.0 }, &shot(&view, celerity), SIZE, 96);
+    let traced = trace(&scene, TriedCamera { lens: None, exposure_m: 2.0 }, &shot(&view, celerity), SIZE, 96);
     let ends = [1.0, -1.0].map(|tau: f64| {
         let gone = FourVector { t: celerity.gamma() * tau, r: celerity.vector() * tau };
         let observer = Observer { event: Event::default() + gone, celerity };
@@ -181,12 +191,12 @@ fn a_pinhole_and_a_moment_change_nothing_and_threads_neither() {
     let scene = disc(DVec3::new(0.1, 0.0, -4.0), 0.5);
     let view = View { look: DVec3::new(0.4, 0.0, -0.9), up: DVec3::Y, fov_degrees: 20.0, size: SIZE };
     let shot = shot(&view, at(DVec3::X * 0.4));
-    let plain = trace(&scene, Optics::default(), &shot, SIZE, 4);
+    let plain = trace(&scene, TriedCamera::default(), &shot, SIZE, 4);
     assert!(plain.light.iter().any(|light| light.y > 0.0), "it is dark");
-    let closed = Optics { lens: Some(CameraLens { aperture_m: 0.0, focus_m: 2.0 }), exposure_m: 0.0 };
+    let closed = TriedCamera { lens: Some(CameraLens { aperture_m: 0.0, focus_m: 2.0 }), exposure_m: 0.0 };
     assert!(plain == trace(&scene, closed, &shot, SIZE, 4), "a closed lens changes something");
 
-    let open = Optics { lens: Some(CameraLens { aperture_m: 0.2, focus_m: 2.0 }), exposure_m: 0.3 };
+    let open = TriedCamera { lens: Some(CameraLens { aperture_m: 0.2, focus_m: 2.0 }), exposure_m: 0.3 };
     let traced = [1, 3, 8].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| trace(&scene, open, &shot, SIZE, 4))

@@ -10,6 +10,7 @@ mod coarser_rooms;
 mod colour;
 mod directions;
 mod display;
+mod exposure;
 mod footprints;
 mod hidden;
 mod house;

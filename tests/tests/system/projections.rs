@@ -27,7 +27,7 @@ use system_tests::lorentz::{boost, four, rotation, space};
 use system_tests::photographer::{DEFAULT_MAP, RAYS, gpu};
 use system_tests::turns::turn;
 use trace::RayTracer;
-use view::{Dial, Effects, Gaze, Occasion, Projection, RendererName};
+use view::{Dial, Effects, Exposure, Gaze, Occasion, Optics, Projection, RendererName};
 use walls::StereoEyes;
 
 const BACKGROUND: [f32; 3] = [0.01, 0.02, 0.03];
@@ -61,7 +61,15 @@ fn maker(scene: Scene, method: Dial, options: MakerOptions) -> PictureMaker {
 
 fn view_of(gaze: Gaze) -> FilmView {
     let development = Development { gamut: Gamut::Clamp, ..Default::default() };
-    FilmView { gaze, effects: Effects::GEOMETRY, fov_deg: 60.0, development, outside: None, elapsed_s: None }
+    FilmView {
+        gaze,
+        effects: Effects::GEOMETRY,
+        fov_deg: 60.0,
+        development,
+        outside: None,
+        exposure: Exposure::default(),
+        elapsed_s: None,
+    }
 }
 
 /// Developed pictures of all eyes.
@@ -183,8 +191,14 @@ fn assert_projection(projection: Projection, size: [u32; 2], stereo: bool) {
     };
     let (reach, sides) = if stereo { (STEREO_REACH, vec![-0.5, 0.5]) } else { (REACH, vec![0.0]) };
     for method in METHODS {
-        let options =
-            MakerOptions { size, samples: 1, projection, stereo: stereo.then_some(eyes), exposes_alone: false };
+        let options = MakerOptions {
+            size,
+            samples: 1,
+            projection,
+            stereo: stereo.then_some(eyes),
+            optics: Optics::default(),
+            exposes_alone: false,
+        };
         let mut maker = maker(LATTICE.build(), method, options);
         for celerity in [DVec3::ZERO, DVec3::new(-0.5, 0.2, -1.2)] {
             let gaze = gaze(celerity);
@@ -265,6 +279,7 @@ fn parallax_is_right_in_eight_directions() {
         samples: 9,
         projection: Projection::Sphere,
         stereo: Some(eyes),
+        optics: Optics::default(),
         exposes_alone: false,
     };
     for (method, tolerance) in METHODS.into_iter().zip([STRIP_PIXELS, STRIP_PIXELS, RAY_PIXELS]) {
@@ -308,6 +323,7 @@ fn eyes_of_a_flat_picture_agree_on_the_wall() {
                 samples: 1,
                 projection: Projection::Flat,
                 stereo: Some(eyes),
+                optics: Optics::default(),
                 exposes_alone: false,
             };
             let mut maker = maker(unlit(vec![body.clone()], &[]), method, options);

@@ -1,4 +1,4 @@
-//! The camera's lens and shutter, which turn a pixel's ray into many.
+//! The camera's lens and shutter, which turn one view into many.
 //!
 //! Every point of a lens is an eye of its own at the observer's event, and every moment of the exposure has an eye
 //! further along the worldline. Each of them is an observer with the same celerity at another event, so nothing else
@@ -8,10 +8,14 @@
 //! is the same in every pixel but for a shift by a hash of the pixel's place. That gives noise instead of patterns,
 //! and the same picture for any number of threads.
 
+use crate::camera::{Camera, Field};
+use crate::effects::Places;
+use crate::exposure::Exposure;
+use crate::projection::PlaceSight;
+use crate::shot::{Gaze, Shot};
 use glam::{DVec2, DVec3};
-use physics::{Boost, FourVector, Observer};
+use physics::Observer;
 use std::f64::consts::TAU;
-use view::{PlaceSight, Places, Shot};
 
 /// A thin lens in front of the observer, at rest in the observer's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,14 +26,11 @@ pub struct CameraLens {
     pub focus_m: f64,
 }
 
-/// Settings of lens and shutter.
+/// Lens and shutter of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Optics {
     /// Lens; `None` stands for a pinhole.
     pub lens: Option<CameraLens>,
-    /// Time that the shutter is open, metres of light travel by the observer's clock, half before and half after the
-    /// picture's moment.
-    pub exposure_m: f64,
 }
 
 /// Place in the lens and moment of a sample.
@@ -42,9 +43,12 @@ struct LensDraw {
 }
 
 impl Optics {
-    /// True if every sample is seen from the shot's own event.
+    /// Smallest number of samples of a picture that is drawn once for each, with a lens or a shutter.
+    pub const LEAST_SAMPLES: u32 = 16;
+
+    /// True if there is no lens, or a closed one.
     pub fn is_pinhole(&self) -> bool {
-        self.lens.is_none_or(|lens| lens.aperture_m == 0.0) && self.exposure_m == 0.0
+        self.lens.is_none_or(|lens| lens.aperture_m == 0.0)
     }
 
     /// Observer for a sample of a pixel, and the direction in which it looks.
@@ -54,13 +58,19 @@ impl Optics {
     /// *Equation:* a thin lens brings together the rays that cross at a point of its focal plane. From the place o in
     /// the lens a pixel looks along F (x, y, −1) − o, F being the distance of that plane (W C.1.2). In a picture that
     /// is not flat each direction has a lens of its own, square to it, and F is a distance from the eye.
-    pub fn look(&self, shot: &Shot, sight: PlaceSight, pixel: [u32; 2], sample: u32) -> (Observer, DVec3) {
+    pub fn look(
+        &self,
+        shot: &Shot,
+        exposure: &Exposure,
+        sight: PlaceSight,
+        pixel: [u32; 2],
+        sample: u32,
+    ) -> (Observer, DVec3) {
         let draw = LensDraw::of(pixel, sample);
-        let observer = shot.observer;
-        let tau = self.exposure_m * draw.moment;
+        let Gaze { observer, observer_from_eye } = exposure.of_shot(shot, draw.moment);
         let PlaceSight { from_m, mut ahead, .. } = sight;
-        let mut place = shot.camera.observer_from_eye * from_m;
-        if let Some(lens) = self.lens.filter(|lens| lens.aperture_m > 0.0) {
+        let mut place = from_m;
+        if let Some(lens) = self.open_lens() {
             let on_lens = 0.5 * lens.aperture_m * draw.lens;
             let eye = if sight.is_flat {
                 on_lens.extend(0.0)
@@ -69,19 +79,43 @@ impl Optics {
                 across * on_lens.x + up * on_lens.y
             };
             ahead = ahead * lens.focus_m - eye;
-            place += shot.camera.observer_from_eye * eye;
+            place += eye;
         }
-        let gone = if shot.effects.places != Places::Instant {
-            let world_from_observer = Boost::observer_from_world(observer.celerity).inverse();
-            world_from_observer.apply(FourVector { t: tau, r: place })
-        } else {
-            // If light takes no time, the observer's lens is at one moment of the world.
-            let celerity = observer.celerity;
-            FourVector { t: tau * celerity.gamma(), r: celerity.vector() * tau + place }
-        };
-        let observer = Observer { event: observer.event + gone, ..observer };
-        (observer, (shot.camera.observer_from_eye * ahead).normalize())
+        (displaced(&observer, observer_from_eye * place, shot.effects.places), (observer_from_eye * ahead).normalize())
     }
+
+    /// Shot of a sample of a flat picture of `size` pixels that is drawn once for each: from one place of the lens at
+    /// one moment of the exposure. The focal plane stays where it is. All samples store light with the same scale.
+    pub fn shot(&self, shot: &Shot, exposure: &Exposure, size: [u32; 2], sample: u32) -> Shot {
+        let draw = LensDraw::of([0, 0], sample);
+        let Gaze { mut observer, observer_from_eye } = exposure.of_shot(shot, draw.moment);
+        let mut field = shot.camera.field;
+        if let Some(lens) = self.open_lens() {
+            let on_lens = 0.5 * lens.aperture_m * draw.lens;
+            let mut tangents = shot.camera.tangents(size);
+            tangents.low -= on_lens / lens.focus_m;
+            tangents.high -= on_lens / lens.focus_m;
+            field = Field::Screen(tangents);
+            observer = displaced(&observer, observer_from_eye * on_lens.extend(0.0), shot.effects.places);
+        }
+        let camera = Camera { observer_from_eye, field };
+        Shot { camera, observer, stored_scale: Some(shot.scale()), ..*shot }
+    }
+
+    fn open_lens(&self) -> Option<CameraLens> {
+        self.lens.filter(|lens| lens.aperture_m > 0.0)
+    }
+}
+
+/// Observer at a place beside another, the observer's axes, metres: at the same time for the observer, or, if light
+/// takes no time, for the world.
+fn displaced(observer: &Observer, place: DVec3, places: Places) -> Observer {
+    if places != Places::Instant {
+        return observer.at_offset(place);
+    }
+    let mut beside = *observer;
+    beside.event.position += place;
+    beside
 }
 
 impl LensDraw {
