@@ -1,7 +1,7 @@
 //! Options of films and numbered pictures.
 
 use clap::Args;
-use picture_files::{Codec, FarmPart, FrameNumbers, HdrCurve};
+use picture_files::{FarmPart, FilmCodec, FrameNumbers, HdrCurve};
 use std::path::Path;
 use std::str::FromStr;
 
@@ -35,9 +35,9 @@ pub struct FilmOptions {
     /// that Slurm, Open MPI or a PMI launcher has given this program.
     #[arg(long, value_name = "K/N")]
     pub part: Option<PartChoice>,
-    /// Codec of a film [default: h264; prores in a .mov file].
+    /// FilmCodec of a film [default: h264; prores in a .mov file].
     #[arg(long, value_enum, value_name = "CODEC")]
-    pub codec: Option<Codec>,
+    pub codec: Option<FilmCodec>,
     /// Write a film of a high dynamic range, in the colours of Rec. 2020: white is 203 cd/m², and what is brighter
     /// shines; by h265 without --codec.
     ///
@@ -78,10 +78,10 @@ impl FilmOptions {
         (seconds * self.frames_per_second()).round().max(1.0) as u64
     }
 
-    /// Codec of a film of this name.
-    pub fn film_codec(&self, path: &Path) -> Codec {
-        let usual = match Codec::usual(path) {
-            usual if self.hdr.is_some() && !usual.is_deep() => Codec::H265,
+    /// FilmCodec of a film of this name.
+    pub fn film_codec(&self, path: &Path) -> FilmCodec {
+        let usual = match FilmCodec::usual(path) {
+            usual if self.hdr.is_some() && !usual.is_deep() => FilmCodec::H265,
             usual => usual,
         };
         self.codec.unwrap_or(usual)

@@ -3,7 +3,7 @@
 use presentation::Presentation;
 use render::display::Development;
 use std::sync::Arc;
-use view::{Effects, Exposure, Gaze, OutsideView, Shot};
+use view::{Effects, Gaze, OpenShutter, OutsideView, Shot};
 
 /// How a moment is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +28,7 @@ pub struct Moment<T = ()> {
     /// How it is shown.
     pub look: Look,
     /// Worldline of the eye while the shutter is open.
-    pub exposure: Exposure,
+    pub exposure: OpenShutter,
     /// What is written over it.
     pub told: Option<Arc<T>>,
 }
@@ -77,7 +77,7 @@ pub struct FilmView {
     /// Camera outside of the eye.
     pub outside: Option<OutsideView>,
     /// Worldline of the eye while the shutter is open.
-    pub exposure: Exposure,
+    pub exposure: OpenShutter,
     /// Proper time since the picture before, seconds, for an eye that adapts; `None` if it adapts at once.
     pub elapsed_s: Option<f64>,
 }

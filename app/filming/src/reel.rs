@@ -7,7 +7,7 @@ use input::{Action, Nanos, SECOND};
 use presentation::Presentation;
 use ride::{FrameTaker, RideFrame, ShownTimes};
 use std::sync::Arc;
-use view::Exposure;
+use view::OpenShutter;
 
 /// Observer at the time of each picture of a film, taken on the way from one frame of a ride to the next. Memory is
 /// taken for what differs: pictures of a ride that waits share one moment.
@@ -85,7 +85,7 @@ impl<T> Reel<T> {
             gaze,
             own_s: frame.vehicle.odometer().own_s,
             look: Look::of(&self.shown, outside),
-            exposure: Exposure::default(),
+            exposure: OpenShutter::default(),
             told: None,
         }
     }
@@ -139,7 +139,7 @@ impl<T> Reel<T> {
         (0..all.len()).step_by(finer as usize).map(move |number| {
             let share = |part: i32| (f64::from(part) / f64::from(PARTS) - 0.5) * shutter_s * rate;
             let gazes = (0..=PARTS).map(|part| gaze(&all, number as f64 + share(part))).collect();
-            Moment { exposure: Exposure::along(gazes), ..all[number].clone() }
+            Moment { exposure: OpenShutter::along(gazes), ..all[number].clone() }
         })
     }
 

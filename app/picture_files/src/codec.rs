@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-/// Codec of a film.
+/// FilmCodec of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 #[value(rename_all = "lower")]
-pub enum Codec {
+pub enum FilmCodec {
     /// H.264: plays everywhere.
     H264,
     /// H.265 (HEVC): half the size, on newer players; the one for high dynamic range.
@@ -28,13 +28,13 @@ pub enum HdrCurve {
     Hlg,
 }
 
-impl Codec {
+impl FilmCodec {
     /// True if it can hold more than 8 bits a colour in a form that players know.
     pub fn is_deep(self) -> bool {
         self != Self::H264
     }
 
-    /// Codec of a film that is not told its codec, by the ending of its name.
+    /// FilmCodec of a film that is not told its codec, by the ending of its name.
     pub fn usual(path: &Path) -> Self {
         match ending(path).as_deref() {
             Some("mov") => Self::Prores,

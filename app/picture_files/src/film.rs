@@ -4,7 +4,7 @@
 //! A separate thread writes, so that encoding a frame and drawing the next overlap. A short channel between the
 //! threads bounds the memory.
 
-use super::codec::{self, Codec, HdrCurve};
+use super::codec::{self, FilmCodec, HdrCurve};
 use super::files::{WriteError, save, temporary, whole};
 use super::spherical::{self, SphericalTags};
 use crossbeam_channel::{Sender, bounded};
@@ -64,8 +64,8 @@ pub enum FilmError {
 /// Form of a film's file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FilmForm {
-    /// Codec of its pictures.
-    pub codec: Codec,
+    /// FilmCodec of its pictures.
+    pub codec: FilmCodec,
     /// Signal of a high dynamic range: its frames have 16 bits a colour then; `None` for sRGB with 8 bits.
     pub hdr: Option<HdrCurve>,
     /// What players are told of its projection; `None` for a flat film of one eye.

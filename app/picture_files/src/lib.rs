@@ -8,7 +8,7 @@ mod numbers;
 mod sequence;
 mod spherical;
 
-pub use codec::{Codec, HdrCurve};
+pub use codec::{FilmCodec, HdrCurve};
 pub use numbers::{FarmPart, FrameNumbers, NumbersError, PartError};
 pub use sequence::{SequenceName, is_whole};
 pub use spherical::{FilmEyes, FilmProjection, SphericalTags};

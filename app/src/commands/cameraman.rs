@@ -15,7 +15,7 @@ use image::RgbaImage;
 use indicatif::ProgressBar;
 use picture_files::files::save;
 use picture_files::film::{FilmForm, Written};
-use picture_files::{Codec, HdrCurve, SequenceName, exr};
+use picture_files::{FilmCodec, HdrCurve, SequenceName, exr};
 use render::choice::Choice;
 use render::{CutStats, Gpu, SceneRenderer};
 use scene::Scene;
@@ -51,7 +51,7 @@ pub struct Equipment {
 #[derive(Clone, Copy, Debug)]
 pub enum FilmOut<'a> {
     /// A film of this codec, and its number of pictures per second.
-    Film(&'a Path, Codec, f64),
+    Film(&'a Path, FilmCodec, f64),
     /// Numbered pictures.
     Numbered(&'a SequenceName, FrameFile),
 }

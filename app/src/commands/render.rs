@@ -21,7 +21,7 @@ use render::Gpu;
 use scene::Start;
 use std::path::Path;
 use std::sync::atomic::Ordering;
-use view::{Camera, CameraLens, Exposure, Gaze, Optics};
+use view::{Camera, CameraLens, Gaze, OpenShutter, Optics};
 use walls::StereoEyes;
 
 /// Length of a film without `--seconds`, seconds of proper time.
@@ -59,7 +59,7 @@ pub fn render(options: &RenderOptions) -> Result<(), Error> {
     let moment = |number: u64| {
         let own_s = number as f64 / options.film.frames_per_second();
         let gaze = inertial(&options.viewpoint, start, own_s * speed_of_light);
-        let exposure = Exposure::straight(&gaze, options.rays.shutter.unwrap_or(0.0) * speed_of_light);
+        let exposure = OpenShutter::straight(&gaze, options.rays.shutter.unwrap_or(0.0) * speed_of_light);
         Moment { gaze, own_s, look, exposure, told: None }
     };
     let first = moment(0);
@@ -170,7 +170,7 @@ fn path_film(options: &RenderOptions, gpu: &Gpu, file: &Path, part: FarmPart) ->
         };
         let parts = if shutter_s > 0.0 { GAZES } else { 0 };
         let share = |gaze: u32| f64::from(gaze) / f64::from(GAZES - 1) - 0.5;
-        let exposure = Exposure::along((0..parts).map(|number| gaze(share(number))).collect());
+        let exposure = OpenShutter::along((0..parts).map(|number| gaze(share(number))).collect());
         Moment { gaze: view.gaze, own_s, look: Look { fov_deg, ..look }, exposure, told: None }
     };
     let mut roll = None;

@@ -16,7 +16,7 @@ use command::RideOptions;
 use filming::Reel;
 use hardware::SetUp;
 use input::{KeyboardKey, Nanos, SECOND, Sample, VehicleKind};
-use picture_files::Codec;
+use picture_files::FilmCodec;
 use render::Gpu;
 use ride::{LogError, RideLog, Simulation, Tour};
 use scene::{Scene, Start};
@@ -65,7 +65,7 @@ pub fn film(options: &RideOptions, path: &Path) -> Result<(), Error> {
     let dial = dial_of_stills(&options.dial, &options.picture);
     let mut camera = Cameraman::new(&gpu, scene, &options.picture, dial, Equipment::default())?;
     let count = reel.len();
-    camera.film((0..).zip(reel.pictures()).map(Ok), count, FilmOut::Film(path, Codec::usual(path), rate))?;
+    camera.film((0..).zip(reel.pictures()).map(Ok), count, FilmOut::Film(path, FilmCodec::usual(path), rate))?;
     // What was ridden is filmed even if it could not be recorded.
     Ok(recorded?)
 }

@@ -12,7 +12,7 @@ use command::RideOptions;
 use filming::Reel;
 use input::{Action, Nanos, SECOND, Sample};
 use interface::{Caption, CaptionQuestion};
-use picture_files::Codec;
+use picture_files::FilmCodec;
 use render::Gpu;
 use std::path::Path;
 
@@ -71,7 +71,7 @@ pub fn film(gpu: &Gpu, options: &RideOptions, name: &str, path: &Path) -> Result
     let dial = dial_of_stills(&options.dial, &options.picture);
     let mut camera = Cameraman::new(gpu, scene, &options.picture, dial, Equipment::default())?.with_titles(titles);
     let count = reel.len();
-    camera.film((0..).zip(reel.pictures()).map(Ok), count, FilmOut::Film(path, Codec::usual(path), rate))?;
+    camera.film((0..).zip(reel.pictures()).map(Ok), count, FilmOut::Film(path, FilmCodec::usual(path), rate))?;
     Ok(recorded?)
 }
 

@@ -9,7 +9,7 @@ use physics::Celerity;
 use rayon::prelude::*;
 use scene::{Scene, SceneFault};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use view::{Exposure, Framing, Optics, PlaceSight, Shot, Stored, sample_offset};
+use view::{Framing, OpenShutter, Optics, PlaceSight, Shot, Stored, sample_offset};
 
 /// Side of a tile, pixels. Each tile is traced in one go.
 const TILE: u32 = 16;
@@ -21,7 +21,7 @@ pub struct RayTracer {
     /// Way in which pictures take their directions from the eye.
     pub framing: Framing,
     /// Worldline of the eye while the shutter is open.
-    pub exposure: Exposure,
+    pub exposure: OpenShutter,
     /// Largest number of turns of a ray.
     bounces: u32,
 }
@@ -76,7 +76,7 @@ impl RayTracer {
             scene,
             optics: Optics::default(),
             framing: Framing::default(),
-            exposure: Exposure::default(),
+            exposure: OpenShutter::default(),
             bounces: 0,
         })
     }
@@ -154,7 +154,7 @@ impl RayTracer {
             if sight.from_m == DVec3::ZERO {
                 return self.scene.place(&observer, seen);
             }
-            let (eye, seen) = Optics::default().look(shot, &Exposure::default(), sight, *pixel, 0);
+            let (eye, seen) = Optics::default().look(shot, &OpenShutter::default(), sight, *pixel, 0);
             self.scene.place(&self.scene.observer(&eye, shot.effects.places), seen)
         };
         pixels.par_iter().map(place).collect()

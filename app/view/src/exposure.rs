@@ -7,15 +7,15 @@ use physics::{Event, Observer};
 /// Gazes while a shutter is open, evenly spaced in own time; the picture's own moment is in the middle. Without any, the
 /// shutter is open for no time.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Exposure(Vec<Gaze>);
+pub struct OpenShutter(Vec<Gaze>);
 
-impl Exposure {
-    /// Exposure along these gazes.
+impl OpenShutter {
+    /// OpenShutter along these gazes.
     pub fn along(gazes: Vec<Gaze>) -> Self {
         Self(gazes)
     }
 
-    /// Exposure of an eye in uniform motion, for a length of own time in metres of light travel.
+    /// OpenShutter of an eye in uniform motion, for a length of own time in metres of light travel.
     pub fn straight(gaze: &Gaze, length_m: f64) -> Self {
         if length_m == 0.0 {
             return Self::default();
@@ -29,7 +29,7 @@ impl Exposure {
         Self(vec![at(-0.5 * length_m), at(0.5 * length_m)])
     }
 
-    /// Exposure of an eye beside this one, at the same own times; its place in the axes of the gaze, metres.
+    /// OpenShutter of an eye beside this one, at the same own times; its place in the axes of the gaze, metres.
     #[must_use]
     pub fn aside(mut self, place_m: DVec3) -> Self {
         for gaze in &mut self.0 {
@@ -38,7 +38,7 @@ impl Exposure {
         self
     }
 
-    /// Exposure with all gazes turned alike, in their own axes.
+    /// OpenShutter with all gazes turned alike, in their own axes.
     #[must_use]
     pub fn turned(mut self, turn: DQuat) -> Self {
         self.0.iter_mut().for_each(|gaze| gaze.observer_from_eye *= turn);

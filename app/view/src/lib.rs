@@ -18,7 +18,7 @@ pub use camera::{Camera, Field, Tangents};
 pub use dial::{Dial, DialError, Occasion, RendererName, Transform};
 pub use dial_limits::DialFault;
 pub use effects::{Effects, EffectsError, Places};
-pub use exposure::Exposure;
+pub use exposure::OpenShutter;
 pub use optics::{CameraLens, Optics};
 pub use outside::{Colouring, OutsideCamera, OutsideError, OutsideView};
 pub use projection::{FACES, Framing, PlaceSight, Projection, ProjectionError, TurningEye};

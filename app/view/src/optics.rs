@@ -10,7 +10,7 @@
 
 use crate::camera::{Camera, Field};
 use crate::effects::Places;
-use crate::exposure::Exposure;
+use crate::exposure::OpenShutter;
 use crate::projection::PlaceSight;
 use crate::shot::{Gaze, Shot};
 use glam::{DVec2, DVec3};
@@ -61,7 +61,7 @@ impl Optics {
     pub fn look(
         &self,
         shot: &Shot,
-        exposure: &Exposure,
+        exposure: &OpenShutter,
         sight: PlaceSight,
         pixel: [u32; 2],
         sample: u32,
@@ -86,7 +86,7 @@ impl Optics {
 
     /// Shot of a sample of a flat picture of `size` pixels that is drawn once for each: from one place of the lens at
     /// one moment of the exposure. The focal plane stays where it is. All samples store light with the same scale.
-    pub fn shot(&self, shot: &Shot, exposure: &Exposure, size: [u32; 2], sample: u32) -> Shot {
+    pub fn shot(&self, shot: &Shot, exposure: &OpenShutter, size: [u32; 2], sample: u32) -> Shot {
         let draw = LensDraw::of([0, 0], sample);
         let Gaze { mut observer, observer_from_eye } = exposure.of_shot(shot, draw.moment);
         let mut field = shot.camera.field;

@@ -1,7 +1,7 @@
 //! Channels on curved screens or behind a projector's lens. Every pixel shows a point of the room. A method with a map
 //! of all directions looks along its direction; others draw flat pictures, in which the pixel looks up its place.
 
-use crate::facet::{Facet, Fineness, SurfaceGrid, facets};
+use crate::facet::{Facet, PixelSide, SurfaceGrid, facets};
 use bytemuck::bytes_of;
 use glam::{DVec2, DVec3, Vec4};
 use rayon::prelude::*;
@@ -35,7 +35,7 @@ impl Curved {
     pub fn new(gpu: &Gpu, display: &Display, channel: &Channel, format: Format) -> Self {
         let points = points(gpu, display, channel, channel.size());
         let point = |place| channel.point(display, place);
-        Self::with_points(gpu, channel.size(), points, (point, Fineness::Mean), format)
+        Self::with_points(gpu, channel.size(), points, (point, PixelSide::Mean), format)
     }
 
     /// Creates the map of a picture of `size` pixels from the point that each of its places shows, 0 to 1 from the
@@ -47,14 +47,14 @@ impl Curved {
             point((at + 0.5) / pixels)
         };
         let all = (0..u64::from(size[0]) * u64::from(size[1])).into_par_iter().map(of_pixel).collect();
-        Self::with_points(gpu, size, upload(gpu, size, all), (point, Fineness::Longer), format)
+        Self::with_points(gpu, size, upload(gpu, size, all), (point, PixelSide::Longer), format)
     }
 
     fn with_points(
         gpu: &Gpu,
         size @ [width, height]: [u32; 2],
         points: wgpu::TextureView,
-        (point, fineness): (impl Fn(DVec2) -> Option<DVec3> + Sync, Fineness),
+        (point, fineness): (impl Fn(DVec2) -> Option<DVec3> + Sync, PixelSide),
         format: Format,
     ) -> Self {
         let at = |index: usize| (index as f64 / GRID as f64).clamp(1e-9, 1.0 - 1e-9);

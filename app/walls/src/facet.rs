@@ -29,12 +29,12 @@ pub struct SurfaceGrid {
     /// Distance between neighbouring columns and rows, pixels of the viewport.
     pub pixels: DVec2,
     /// Side of a pixel for which flat pictures are fine enough.
-    pub fineness: Fineness,
+    pub fineness: PixelSide,
 }
 
 /// Side of a pixel that is not square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fineness {
+pub enum PixelSide {
     /// Side of a square of the same area: nothing is lost of the picture's pixels.
     Mean,
     /// The longer side. Beside the poles of a sphere's picture many pixels share what one shows elsewhere, and flat
@@ -42,7 +42,7 @@ pub enum Fineness {
     Longer,
 }
 
-impl Fineness {
+impl PixelSide {
     /// Side of a pixel whose sides are these.
     fn side(self, right: DVec2, down: DVec2) -> f64 {
         match self {
@@ -186,7 +186,7 @@ mod tests {
                 points.push(Some(2.0 * (level + DVec3::Y * latitude.sin())));
             }
         }
-        SurfaceGrid { size, points, pixels: DVec2::new(16.0, 16.0), fineness: Fineness::Mean }
+        SurfaceGrid { size, points, pixels: DVec2::new(16.0, 16.0), fineness: PixelSide::Mean }
     }
 
     #[test]

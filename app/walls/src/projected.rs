@@ -44,13 +44,13 @@ pub struct ProjectedPicture {
 /// Origin of the light.
 enum LightSource {
     /// Parts that the renderers draw, and the eyes that see them.
-    Parts(Vec<Part>, Vec<EyeGroup>),
+    Parts(Vec<ProjectedPart>, Vec<EyeGroup>),
     /// Sphere in stereo, and the pass that takes the picture from it.
     Sphere(Box<ProjectedPicture>, Box<SphereTaker>),
 }
 
 /// Picture that the renderers draw.
-struct Part {
+struct ProjectedPart {
     picture: ChannelPicture,
     size: [u32; 2],
     screen: PartScreen,
@@ -180,7 +180,7 @@ impl ProjectedPicture {
             next = groups.get(number + 1).map(|group| group.submit(gpu, renderer, view)).transpose()?;
             let mut aimed = Vec::new();
             for place in &group.places {
-                let Part { picture, screen, size: part_size } = &mut parts[place.part];
+                let ProjectedPart { picture, screen, size: part_size } = &mut parts[place.part];
                 let (flat, place_m) = screen.seen(view, *part_size, group.from_m);
                 let eye = OccupantEye {
                     observer: group.observer(view),
@@ -195,7 +195,7 @@ impl ProjectedPicture {
             let all: Vec<_> = aimed.iter().flat_map(|(_, _, shots)| shots.iter().copied()).collect();
             renderer.prepare_eye(gpu, &all);
             for (place, context, shots) in &aimed {
-                let Part { picture, size: part_size, .. } = &mut parts[place.part];
+                let ProjectedPart { picture, size: part_size, .. } = &mut parts[place.part];
                 let drawn = picture.draw(renderer, shots, context);
                 // A strip is too narrow to estimate anything from the edges in it.
                 if !strips {
@@ -272,7 +272,7 @@ impl PartMaker<'_> {
         projection: Projection,
         size @ [width, height]: [u32; 2],
         stereo: Option<StereoEyes>,
-    ) -> (Vec<Part>, Vec<EyeGroup>) {
+    ) -> (Vec<ProjectedPart>, Vec<EyeGroup>) {
         let whole = |part| PartPlace { part, corner: [0, 0], eye_from_part: DMat3::IDENTITY };
         let middle = |places| EyeGroup { light: 0, from_m: DVec3::ZERO, places };
         let asides = stereo.map(|eyes| [-0.5, 0.5].map(|side| side * eyes.separation_m));
@@ -328,15 +328,15 @@ impl PartMaker<'_> {
         }
     }
 
-    fn flat(&self, size: [u32; 2], screen: PartScreen) -> Part {
-        Part { picture: ChannelPicture::flat(self.gpu, size, self.quality, self.passes), size, screen }
+    fn flat(&self, size: [u32; 2], screen: PartScreen) -> ProjectedPart {
+        ProjectedPart { picture: ChannelPicture::flat(self.gpu, size, self.quality, self.passes), size, screen }
     }
 
-    /// Part whose places, 0 to 1 from the upper left, show these directions.
-    fn round(&self, size: [u32; 2], direction: impl Fn(DVec2) -> Option<DVec3> + Sync) -> Part {
+    /// ProjectedPart whose places, 0 to 1 from the upper left, show these directions.
+    fn round(&self, size: [u32; 2], direction: impl Fn(DVec2) -> Option<DVec3> + Sync) -> ProjectedPart {
         let curved = Curved::of_places(self.gpu, size, direction, self.quality.format);
         let picture = ChannelPicture::curved(self.gpu, curved, self.quality, self.passes);
-        Part { picture, size, screen: PartScreen::Round }
+        ProjectedPart { picture, size, screen: PartScreen::Round }
     }
 }
 

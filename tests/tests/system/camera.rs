@@ -13,7 +13,7 @@ use scene::{Material, Mesh, Scene};
 use std::sync::atomic::AtomicBool;
 use system_tests::view::{View, middle};
 use trace::{RayTracer, Traced};
-use view::{CameraLens, Effects, Exposure, Gaze, Optics, Shot};
+use view::{CameraLens, Effects, Gaze, OpenShutter, Optics, Shot};
 
 const BLACK: Option<[f32; 3]> = Some([0.0; 3]);
 
@@ -63,7 +63,7 @@ fn trace(scene: &Scene, camera: TriedCamera, shot: &Shot, size: [u32; 2], sample
     let TriedCamera { lens, exposure_m } = camera;
     let mut tracer = RayTracer::new(scene.clone(), BLACK, false).unwrap().with_optics(Optics { lens });
     let gaze = Gaze { observer: shot.observer, observer_from_eye: shot.camera.observer_from_eye };
-    tracer.exposure = Exposure::straight(&gaze, exposure_m);
+    tracer.exposure = OpenShutter::straight(&gaze, exposure_m);
     tracer.trace(shot, size, samples, &AtomicBool::new(false), || {})
 }
 

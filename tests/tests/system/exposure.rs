@@ -19,7 +19,7 @@ use system_tests::bodies::{cuboid, unlit};
 use system_tests::photographer::{DEFAULT_MAP, RAYS, gpu};
 use system_tests::turns::turn;
 use trace::RayTracer;
-use view::{CameraLens, Dial, Effects, Exposure, Gaze, Occasion, Optics, Projection, RendererName};
+use view::{CameraLens, Dial, Effects, Gaze, Occasion, OpenShutter, Optics, Projection, RendererName};
 
 const BACKGROUND: [f32; 3] = [0.01, 0.02, 0.03];
 /// Methods that draw a picture once for each sample, and rays.
@@ -34,7 +34,7 @@ fn light(
     method: Dial,
     size: [u32; 2],
     fov_deg: f64,
-    exposure: &Exposure,
+    exposure: &OpenShutter,
     optics: Optics,
 ) -> Rgb32FImage {
     let _turn = turn();
@@ -64,9 +64,9 @@ fn gaze(share: f64) -> Gaze {
     Gaze { observer: Observer::default(), observer_from_eye }
 }
 
-/// Exposure along a worldline, given at shares −½ to ½ of it.
-fn along(gaze: impl Fn(f64) -> Gaze) -> Exposure {
-    Exposure::along((0..9).map(|part| gaze(f64::from(part) / 8.0 - 0.5)).collect())
+/// OpenShutter along a worldline, given at shares −½ to ½ of it.
+fn along(gaze: impl Fn(f64) -> Gaze) -> OpenShutter {
+    OpenShutter::along((0..9).map(|part| gaze(f64::from(part) / 8.0 - 0.5)).collect())
 }
 
 #[test]
@@ -107,20 +107,20 @@ fn other_renderers_blur_as_rays_do() {
     let scene = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 }.build();
     let celerity = Celerity::new(DVec3::new(0.3, 0.1, -0.7)).unwrap();
     let moving = |share: f64| {
-        // A fiftieth of a second where light goes at 30 km/h, in a bend.
-        let tau = 0.17 * share;
+        // A twenty-eighth of a second where light goes at 30 km/h, in a bend.
+        let tau = 0.3 * share;
         let event =
             Event { ct: celerity.gamma() * tau, position: DVec3::new(0.4, -0.2, 0.5) + celerity.vector() * tau };
-        let observer_from_eye = DQuat::from_rotation_y(TURN * SHUTTER_S * share);
+        let observer_from_eye = DQuat::from_rotation_y(0.04 * share);
         Gaze { observer: Observer { event, celerity }, observer_from_eye }
     };
-    let still = Exposure::along(vec![moving(0.0); 2]);
+    let still = OpenShutter::along(vec![moving(0.0); 2]);
     let lens = Optics { lens: Some(CameraLens { aperture_m: 0.12, focus_m: 4.0 }) };
     let perceived = |light: &Rgb32FImage| {
         let rgb: Vec<DVec3> = light.pixels().map(|pixel| DVec3::from(pixel.0.map(f64::from)).min(DVec3::ONE)).collect();
         Perceived::new(SIZE, &rgb, PIXELS_PER_DEGREE)
     };
-    let seen = |method, exposure: &Exposure, optics| perceived(&light(&scene, method, SIZE, 60.0, exposure, optics));
+    let seen = |method, exposure: &OpenShutter, optics| perceived(&light(&scene, method, SIZE, 60.0, exposure, optics));
     for (what, exposure, optics) in
         [("shutter", along(moving), Optics::default()), ("lens", still.clone(), lens), ("both", along(moving), lens)]
     {

@@ -27,7 +27,7 @@ use system_tests::lorentz::{boost, four, rotation, space};
 use system_tests::photographer::{DEFAULT_MAP, RAYS, gpu};
 use system_tests::turns::turn;
 use trace::RayTracer;
-use view::{Dial, Effects, Exposure, Gaze, Occasion, Optics, Projection, RendererName};
+use view::{Dial, Effects, Gaze, Occasion, OpenShutter, Optics, Projection, RendererName};
 use walls::StereoEyes;
 
 const BACKGROUND: [f32; 3] = [0.01, 0.02, 0.03];
@@ -67,7 +67,7 @@ fn view_of(gaze: Gaze) -> FilmView {
         fov_deg: 60.0,
         development,
         outside: None,
-        exposure: Exposure::default(),
+        exposure: OpenShutter::default(),
         elapsed_s: None,
     }
 }
