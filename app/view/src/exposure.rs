@@ -4,8 +4,8 @@ use crate::shot::{Gaze, Shot};
 use glam::{DQuat, DVec3};
 use physics::{Event, Observer};
 
-/// Gazes while a shutter is open, evenly spaced in own time; the picture's own moment is in the middle. Without any, the
-/// shutter is open for no time.
+/// Gazes while a shutter is open, evenly spaced in own time; the picture's own moment is in the middle. Without any,
+/// the shutter is open for no time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OpenShutter(Vec<Gaze>);
 

@@ -211,8 +211,8 @@ mod tests {
                 let [Some(a), Some(b), Some(c), Some(d)] = corners else { continue };
                 for [a, b, c] in [[a, b, c], [a, c, d]] {
                     let below = 1.0 + a.dot(b) + b.dot(c) + c.dot(a);
-                    // Seen from within, with y down the picture, the corners go round clockwise.
-                    sum -= 2.0 * a.dot(b.cross(c)).atan2(below);
+                    // Seen from within, these corners go round clockwise.
+                    sum += 2.0 * a.dot(b.cross(c)).atan2(below);
                 }
             }
         }

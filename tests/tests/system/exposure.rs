@@ -103,15 +103,15 @@ fn other_renderers_blur_as_rays_do() {
     /// Largest FLIP between a renderer and rays, and the smallest between a blurred picture and a sharp one, so that
     /// blur is seen.
     const FLIP: f64 = 0.03;
-    const SEEN: f64 = 0.06;
+    const SEEN: f64 = 0.035;
     let scene = Lattice { count: [6, 6, 6], spacing: 4.0, side: 1.0 }.build();
     let celerity = Celerity::new(DVec3::new(0.3, 0.1, -0.7)).unwrap();
     let moving = |share: f64| {
-        // A twenty-eighth of a second where light goes at 30 km/h, in a bend.
-        let tau = 0.3 * share;
+        // A fiftieth of a second where light goes at 30 km/h, in a bend.
+        let tau = 0.17 * share;
         let event =
             Event { ct: celerity.gamma() * tau, position: DVec3::new(0.4, -0.2, 0.5) + celerity.vector() * tau };
-        let observer_from_eye = DQuat::from_rotation_y(0.04 * share);
+        let observer_from_eye = DQuat::from_rotation_y(TURN * SHUTTER_S * share);
         Gaze { observer: Observer { event, celerity }, observer_from_eye }
     };
     let still = OpenShutter::along(vec![moving(0.0); 2]);
